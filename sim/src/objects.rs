@@ -81,22 +81,14 @@ impl Objects {
         let Self::At(places) = self else { return None };
         let wrong = |&[x, y]: &[f64; 2]| {
             let is_inside = (-0.5..columns).contains(&x) && (-0.5..rows).contains(&y);
-            let cell = Some(cell_at(Point::new(x, y))).filter(|&cell| is_inside && layout.contains(cell));
-            match cell {
-                None => {
-                    let right = format!("columns from -0.5 to {columns} and rows from -0.5 to {rows}");
-                    Some((
-                        format!("an object at {x}:{y} is outside the floor"),
-                        format!("give `objects` {right}"),
-                    ))
-                }
-                Some(cell) if !layout.is_free(cell) => {
-                    let what =
-                        format!("an object at {x}:{y} is within the obstacle that fills the cell {cell}");
-                    Some((what, "give `objects` places in free cells".to_owned()))
-                }
-                Some(_) => None,
+            let cell = cell_at(Point::new(x, y));
+            if !is_inside || !layout.contains(cell) {
+                let right = format!("columns from -0.5 to {columns} and rows from -0.5 to {rows}");
+                let what = format!("an object at {x}:{y} is outside the floor");
+                return Some((what, format!("give `objects` {right}")));
             }
+            let what = format!("an object at {x}:{y} is within the obstacle that fills the cell {cell}");
+            (!layout.is_free(cell)).then(|| (what, "give `objects` places in free cells".to_owned()))
         };
         places.iter().find_map(wrong)
     }

@@ -276,14 +276,11 @@ impl Scheme {
     pub fn needless_seed(self) -> Diagnostic {
         let name = self.name;
         let drawn: Vec<String> = self.drawn.iter().map(RandomPart::to_string).collect();
-        let remedy = match drawn[..] {
-            [] => {
-                format!(
-                    "leave it out: in runs of {name} nothing is drawn but layouts, such as cells:15x15:0.1"
-                )
-            }
-            [..] => format!("leave it out; of {name} there would be drawn: {}", drawn.join("; ")),
+        let drawn = match drawn[..] {
+            [] => format!(": in runs of {name} nothing is drawn but layouts, such as cells:15x15:0.1"),
+            [..] => format!("; of {name} there would be drawn: {}", drawn.join("; ")),
         };
+        let remedy = format!("leave it out{drawn}");
         Diagnostic::of_field("seed", "`seed` has no effect: nothing here is left to chance", remedy)
     }
 
@@ -373,18 +370,13 @@ impl Setup {
         let Self { scheme, robots, starts, .. } = self;
         let robot = scheme.look.robot();
         let wrong = |what: String, remedy: &str| Err(Diagnostic::of_field("starts", what, remedy));
-        let are_not_for_each = |count: usize| {
-            let what = format!("{} for {}", counted(count, "start"), counted(*robots, robot));
-            let remedy = match scheme.starts {
-                Starts::Alone => format!("give each {robot} a start of its own"),
-                Starts::Base | Starts::Anywhere | Starts::Beside => {
-                    format!("give one start for all, or one for each {robot}")
-                }
-            };
-            wrong(what, &remedy)
-        };
-        match (scheme.starts, starts) {
-            (Starts::Alone, None) => return are_not_for_each(1),
+        let is_alone = scheme.starts == Starts::Alone;
+        let is_not_for_each = match (scheme.starts, starts) {
+            (Starts::Base, None) => return Ok(()),
+            (Starts::Base, Some(_)) => {
+                let what = format!("the {robot}s of a {} start at the base", scheme.team);
+                return wrong(what, "give the base another place by `base`");
+            }
             (Starts::Alone | Starts::Beside, Some(starts)) if self.is_full(starts) => {
                 let (robots, cells) = (counted(*robots, "robot"), starts.len());
                 let reached = counted(cells, "cell");
@@ -392,32 +384,26 @@ impl Setup {
                 let remedy = format!("give `robots` a number up to {cells}, or take a larger layout");
                 return Err(Diagnostic::of_field("robots", what, remedy));
             }
-            (Starts::Base, Some(_)) => {
-                let what = format!("the {robot}s of a {} start at the base", scheme.team);
-                return wrong(what, "give the base another place by `base`");
+            (Starts::Anywhere | Starts::Beside | Starts::Alone, None) => is_alone,
+            (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts)) => {
+                starts.len() != usize::from(*robots)
             }
-            (Starts::Base, None) => {}
-            (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts))
-                if starts.len() != usize::from(*robots) =>
-            {
-                return are_not_for_each(starts.len());
-            }
-            (Starts::Anywhere | Starts::Beside | Starts::Alone, starts) => {
-                for &start in starts.as_deref().unwrap_or(slice::from_ref(&self.base)) {
-                    self.layout
-                        .check_start(start)
-                        .or_else(|problem| wrong(problem.what().to_owned(), problem.remedy()))?;
-                }
-            }
+        };
+        let starts = starts.as_deref().unwrap_or(slice::from_ref(&self.base));
+        if is_not_for_each {
+            let for_all = if is_alone { "give each" } else { "give one start for all, or one for each" };
+            let own = if is_alone { " a start of its own" } else { "" };
+            let what = format!("{} for {}", counted(starts.len(), "start"), counted(*robots, robot));
+            return wrong(what, &format!("{for_all} {robot}{own}"));
         }
-        let starts = starts.as_deref().unwrap_or_default();
+        for &start in starts {
+            let refused = self.layout.check_start(start);
+            refused.or_else(|problem| wrong(problem.what().to_owned(), problem.remedy()))?;
+        }
         let is_again = |&(place, start): &(usize, &Cell)| starts[..place].contains(start);
-        match starts.iter().enumerate().find(is_again).filter(|_| scheme.starts == Starts::Alone) {
-            Some((_, cell)) => {
-                wrong(format!("two robots start in the cell {cell}"), "give each robot a start of its own")
-            }
-            None => Ok(()),
-        }
+        starts.iter().enumerate().find(is_again).filter(|_| is_alone).map_or(Ok(()), |(_, cell)| {
+            wrong(format!("two robots start in the cell {cell}"), "give each robot a start of its own")
+        })
     }
 
     /// Whether there are fewer starts than robots since there is no more room.
