@@ -218,15 +218,13 @@ fn assign_all(aims: &mut [Option<Cell>], free: &[usize], left: &[Cell], ways: &[
     }
     let far = 1_i64 << 32;
     let cost = |robot: usize, cell: usize| ways[robot].get(&left[cell]).map_or(far, |&way| i64::from(way));
-    if free.len() <= left.len() {
-        let weights = Matrix::from_fn(free.len(), left.len(), |(robot, cell)| cost(robot, cell));
-        for (robot, cell) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
-            aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
-        }
-    } else {
-        let weights = Matrix::from_fn(left.len(), free.len(), |(cell, robot)| cost(robot, cell));
-        for (cell, robot) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
-            aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
-        }
+    let mut weights = Matrix::from_fn(free.len(), left.len(), |(robot, cell)| cost(robot, cell));
+    let are_many = free.len() > left.len();
+    if are_many {
+        weights = weights.transposed();
+    }
+    for (row, column) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
+        let (robot, cell) = if are_many { (column, row) } else { (row, column) };
+        aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
     }
 }

@@ -43,10 +43,8 @@ pub(super) struct Radio {
     pub(super) dice: Dice,
     anchors: Vec<Point>,
     rim: Option<position::Area>,
-    /// Of one beacon; none if distances are exact.
-    signal: Option<Signal>,
-    /// Of the mean of all that are heard at a stop; none if none is heard.
-    averaged: Option<Signal>,
+    /// Of one beacon, and of the mean of all that are heard at a stop; none if distances are exact.
+    signals: Option<[Signal; 2]>,
     /// How far wheels err.
     pub(super) odometry: Odometry,
 }
@@ -57,11 +55,9 @@ impl Radio {
     pub(super) fn new(options: Options, area: Area, seed: u64) -> Self {
         let [least, greatest] = corners(area);
         let rim = position::Area::new(least, greatest);
-        let (signal, averaged) =
-            options.signals().map_or((None, None), |[one, mean]| (Some(one), Some(mean)));
-        let averaged = averaged.filter(|_| options.readings() > 0);
         let (dice, odometry) = (Dice::new(seed, *b"frontier"), options.odometry());
-        Self { dice, anchors: anchors(area, options.anchors()), options, rim, signal, averaged, odometry }
+        let (anchors, signals) = (anchors(area, options.anchors()), options.signals());
+        Self { options, dice, anchors, rim, signals, odometry }
     }
 
     /// How far messages are heard, if not everywhere.
@@ -76,7 +72,7 @@ impl Radio {
 
     /// Whether positions have an error.
     pub(super) fn is_noisy(&self) -> bool {
-        self.signal.is_some() || self.odometry != Odometry::EXACT
+        self.signals.is_some() || self.odometry != Odometry::EXACT
     }
 
     /// Whether a robot in one cell hears what one in another says now.
@@ -156,9 +152,10 @@ impl Radio {
     /// A robot that counts itself to be in `counted` stands and takes a fix.
     pub(super) fn takes_fix(&mut self, rule: &Rule, pose: &mut Pose, counted: Cell) {
         let near = pose.belief.at();
-        let (Some(one), Some(mean)) = (self.signal, self.averaged) else {
+        let hears = self.options.readings() > 0;
+        let Some([one, mean]) = self.signals.filter(|_| hears) else {
             // Distances without noise, of which the wheels leave a robot uncertain.
-            if self.signal.is_none() && self.options.readings() > 0 {
+            if hears {
                 let exact = SymmetricMatrix { xx: EXACT, xy: 0.0, yy: EXACT };
                 pose.belief.corrected(pose.at, exact, Gate::Open);
             }
