@@ -7,9 +7,9 @@ pub mod film;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::mem;
 use std::ops::RangeInclusive;
 use std::path::Path;
+use std::{iter, mem};
 
 use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::{Diagnostic, Halt};
@@ -422,23 +422,11 @@ pub fn word(name: &str, numbers: &[u32]) -> String {
 pub fn base36(text: &mut String, numbers: impl IntoIterator<Item = i64>) {
     for (place, number) in numbers.into_iter().enumerate() {
         text.push_str(if place > 0 { "," } else { "" });
-        one_base36(text, number);
+        text.push_str(if number < 0 { "-" } else { "" });
+        let shorter = |left: &u64| Some(left / 36).filter(|&left| left > 0);
+        let digits: Vec<u64> = iter::successors(Some(number.unsigned_abs()), shorter).collect();
+        text.extend(digits.iter().rev().filter_map(|digits| char::from_digit((digits % 36) as u32, 36)));
     }
-}
-
-fn one_base36(text: &mut String, number: i64) {
-    if number < 0 {
-        text.push('-');
-    }
-    let (mut left, mut digits) = (number.unsigned_abs(), Vec::new());
-    loop {
-        digits.extend(char::from_digit((left % 36) as u32, 36));
-        left /= 36;
-        if left == 0 {
-            break;
-        }
-    }
-    text.extend(digits.iter().rev());
 }
 
 /// A word with a blank before it; nothing if there are no numbers.

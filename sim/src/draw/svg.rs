@@ -17,7 +17,7 @@ use crate::explore::{Play, Report, Setup, Survey, TeamMove};
 use tautline_grids::layout::Layout;
 
 pub use map::{known, map};
-use marks::{CELL, Frame, base_mark, ground, lines, marked_cell, panel, team, walls};
+use marks::{CELL, Frame, base_mark, ground, lines, marked_cell, panel, square, team, walls};
 pub use moment::moment;
 
 /// Cells of an area that is drawn. What is larger no browser shows.
@@ -160,11 +160,7 @@ pub fn environments() -> Vec<Panel> {
         .map(|environment| {
             let mut body = lines(area);
             for cell in environment.offsets() {
-                let (x, y) = frame.corner(cell);
-                let _ = write!(
-                    body,
-                    "<rect class=\"member\" x=\"{x}\" y=\"{y}\" width=\"{CELL}\" height=\"{CELL}\"/>"
-                );
+                body += &square("member", frame.corner(cell), CELL);
             }
             let (x, y) = frame.centre(centre);
             if let Some(radius) = environment.radius() {

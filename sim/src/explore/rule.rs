@@ -79,10 +79,7 @@ impl RuleId {
 
 impl From<RuleName> for RuleId {
     fn from(rule: RuleName) -> Self {
-        match rule {
-            RuleName::Published => Self::PUBLISHED,
-            RuleName::Repaired => Self::REPAIRED,
-        }
+        Self(rule.word())
     }
 }
 

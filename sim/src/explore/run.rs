@@ -97,11 +97,7 @@ impl Milestone {
 
     /// The share.
     pub const fn percent(self) -> u32 {
-        match self {
-            Self::Half => 50,
-            Self::ThreeQuarters => 75,
-            Self::Whole => 100,
-        }
+        [50, 75, 100][self as usize]
     }
 
     /// How many of `cells` it takes, rounded up.

@@ -114,8 +114,12 @@ pub(super) fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
 /// A frame inside a cell of which something was missed: its sensor, or the cell as a whole.
 pub(super) fn unseen(frame: Frame, cell: Cell) -> String {
     let (x, y) = frame.corner(cell);
-    let inner = CELL - 6;
-    format!("<rect class=\"unseen\" x=\"{}\" y=\"{}\" width=\"{inner}\" height=\"{inner}\"/>", x + 3, y + 3)
+    square("unseen", (x + 3, y + 3), CELL - 6)
+}
+
+/// A square of this class, from its corner on.
+pub(super) fn square(class: &str, (x, y): (i32, i32), side: i32) -> String {
+    format!("<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{side}\" height=\"{side}\"/>")
 }
 
 pub(super) fn base_mark(frame: Frame, base: Cell) -> String {
