@@ -284,11 +284,8 @@ impl Extra {
                 A robot takes the best three. Without it 3",
         wrong: |options, _, _| {
             let is_right = (3..=8).contains(&options.anchors());
-            unless(
-                is_right,
-                "a position takes three anchors, and there is room for 8",
-                "give `anchors` 3 to 8",
-            )
+            let what = "a position takes three anchors, and there is room for 8";
+            unless(is_right, what, "give `anchors` 3 to 8")
         },
         ..told!("anchors", anchors, whole)
     };
@@ -299,12 +296,9 @@ impl Extra {
         about: "By which share of the way each drive errs, and by how many degrees each turn, as standard deviations. \
                 Without it 0.02:1 where positions have noise, else 0:0",
         wrong: |options, _, _| {
-            let wheels = options.odometry?;
-            let is_right = Odometry::new(wheels.share, wheels.turn_degrees).is_some();
-            let what = format_args!(
-                "wheels do not err by {} of the way and {}° a turn",
-                wheels.share, wheels.turn_degrees
-            );
+            let Wheels { share, turn_degrees } = options.odometry?;
+            let is_right = Odometry::new(share, turn_degrees).is_some();
+            let what = format_args!("wheels do not err by {share} of the way and {turn_degrees}° a turn");
             let remedy =
                 "give `odometry` a share of the way from 0 to 1 and degrees from 0 to 90, such as 0.02:1";
             unless(is_right, what, remedy)
@@ -352,10 +346,7 @@ impl Extra {
     /// How robots find their positions.
     pub const SWARM: &'static Self = &Self {
         about: "Robots find each position by a swarm of particles, as in the paper, in place of least squares",
-        read: |_, options| {
-            options.swarm = true;
-            Ok(())
-        },
+        read: |_, options| put(Ok::<_, String>(true), &mut options.swarm),
         typed: |options| options.swarm.then(String::new),
         wrong: |options, _, _| {
             let is_right = !options.swarm || options.noise_db > 0.0;
@@ -440,10 +431,7 @@ impl Extra {
     /// In what order robots go.
     pub const SPEEDS: &'static Self = &Self {
         about: "The robots of a chain go one after the other, in a new random order in each team move",
-        read: |_, options| {
-            options.going = MoveOrder::OneByOne;
-            Ok(())
-        },
+        read: |_, options| put(Ok::<_, String>(MoveOrder::OneByOne), &mut options.going),
         typed: |options| (!options.going.is_usual()).then(String::new),
         ..Self::new("speeds")
     };
