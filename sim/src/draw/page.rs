@@ -76,31 +76,7 @@ struct Page<'a> {
     clauses: BTreeMap<&'static str, &'a str>,
 }
 
-impl<'a> Page<'a> {
-    /// The page in `sink` that plays these team moves of a run that came out as `report`. All team moves up to the last
-    /// one are to be added.
-    fn new(
-        sink: &'a mut dyn Sink,
-        run: &'a dyn Play,
-        report: &'a Report,
-        moves: &RangeInclusive<u32>,
-    ) -> Self {
-        let mut page = Self {
-            sink,
-            run,
-            report,
-            moves: moves.clone(),
-            bytes: 0,
-            layers: None,
-            line: Line::new(report.chart.area()),
-            start: None,
-            broken: Vec::new(),
-            clauses: BTreeMap::new(),
-        };
-        page.put(&film::head(&run.setup().title()));
-        page
-    }
-
+impl Page<'_> {
     fn put(&mut self, text: &str) {
         self.bytes += text.len();
         if self.bytes > MAX_BYTES {
@@ -149,14 +125,6 @@ impl<'a> Page<'a> {
             let text = self.line.before(&self.report.chart, self.first());
             self.put(&(text + "\n"));
         }
-    }
-
-    /// Adds what comes after the team moves.
-    fn finish(mut self) {
-        let team = self.report.team.clone();
-        self.begin(&team);
-        let text = film::foot(&self.film());
-        self.put(&text);
     }
 
     fn film(&mut self) -> Film {
@@ -219,12 +187,26 @@ pub fn write(
     report: &Report,
     moves: &RangeInclusive<u32>,
 ) -> Result<(), Halt> {
-    let mut page = Page::new(sink, run, report, moves);
+    let mut page = Page {
+        sink,
+        run,
+        report,
+        moves: moves.clone(),
+        bytes: 0,
+        layers: None,
+        line: Line::new(report.chart.area()),
+        start: None,
+        broken: Vec::new(),
+        clauses: BTreeMap::new(),
+    };
+    page.put(&film::head(&run.setup().title()));
     run.among(&(1..=*moves.end()), &mut |made| {
         page.add(made);
         Ok(())
     })?;
-    page.finish();
+    page.begin(&report.team);
+    let film = page.film();
+    page.put(&film::foot(&film));
     Ok(())
 }
 
@@ -253,7 +235,8 @@ struct Line {
 }
 
 impl Line {
-    const fn new(area: Area) -> Self {
+    /// Nothing is known of `area`.
+    fn new(area: Area) -> Self {
         Self {
             area,
             known: BTreeMap::new(),

@@ -2,7 +2,6 @@
 //! they mean, the notes, and how to make the run again.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use serde::Serialize;
 use tautline_io::atomic_file::HTML_HEAD;
@@ -327,39 +326,29 @@ pub(super) fn again(setup: &Setup) -> Again {
     if !scheme.is_known() || !choices.is_empty() || !missed.is_empty() {
         return by_search;
     }
-    let name = scheme.name;
-    let mut command = format!("tautline explore LAYOUT --scheme {name} --rule {rule} --robots {robots}");
-    // Writing to a string cannot fail.
+    let mut command = vec![
+        "tautline explore LAYOUT".to_owned(),
+        format!("scheme {}", scheme.name),
+        format!("rule {rule}"),
+        format!("robots {robots}"),
+    ];
     match (scheme.starts, starts) {
-        (Starts::Base, _) | (_, None) => {
-            let _ = write!(command, " --base {},{}", base.x, base.y);
-        }
+        (Starts::Base, _) | (_, None) => command.push(format!("base {},{}", base.x, base.y)),
         (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts)) => {
-            for start in starts {
-                let _ = write!(command, " --start {},{}", start.x, start.y);
-            }
+            command.extend(starts.iter().map(|start| format!("start {},{}", start.x, start.y)));
         }
     }
-    if !miss.is_never() {
-        let _ = write!(command, " --miss {miss}");
-    }
-    for extra in Extra::ALL {
-        let _ = match ((extra.typed)(options), extra.takes) {
-            (None, _) => Ok(()),
-            (Some(_), Takes::Nothing) => write!(command, " --{}", extra.field),
-            (Some(word), Takes::Word(_) | Takes::Real(_)) => write!(command, " --{} {word}", extra.field),
-        };
-    }
-    if let Some(milestone) = limits.until {
-        let _ = write!(command, " --until {}", milestone.percent());
-    }
-    if let Some(most) = limits.max_moves {
-        let _ = write!(command, " --max-moves {most}");
-    }
-    if scheme.draws(setup) {
-        let _ = write!(command, " --seed {seed}");
-    }
-    Again { command: Some(command + " --html run.html"), ..by_search }
+    let extra = |extra: &Extra| {
+        let (field, word) = (extra.field, (extra.typed)(options)?);
+        Some(if extra.takes == Takes::Nothing { field.to_owned() } else { format!("{field} {word}") })
+    };
+    command.extend((!miss.is_never()).then(|| format!("miss {miss}")));
+    command.extend(Extra::ALL.into_iter().filter_map(extra));
+    command.extend(limits.until.map(|milestone| format!("until {}", milestone.percent())));
+    command.extend(limits.max_moves.map(|most| format!("max-moves {most}")));
+    command.extend(scheme.draws(setup).then(|| format!("seed {seed}")));
+    command.push("html run.html".to_owned());
+    Again { command: Some(command.join(" --")), ..by_search }
 }
 
 /// The number of a cell, row by row.
