@@ -183,9 +183,7 @@ pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Diagnostic> {
     let origin = found.area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
     let walls = found.walls.iter().map(|wall| Edge::new(shifted(wall.cell()), wall.side()));
-    let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?.with_walls(walls);
-    for &cell in &found.obstacles {
-        layout.block(shifted(cell));
-    }
+    let layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?.with_walls(walls);
+    let layout = layout.with_blocked(found.obstacles.iter().copied().map(shifted));
     Ok((layout, found.starts.iter().copied().map(shifted).collect()))
 }

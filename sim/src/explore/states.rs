@@ -17,12 +17,8 @@ const BETWEEN: u64 = 1 << 14;
 pub(super) struct Small {
     /// The word for a cell.
     pub(super) cell: &'static str,
-    /// The most cells of a layout.
-    pub(super) most_cells: usize,
     /// The most columns and rows, and how that is said.
     pub(super) most_side: (i16, &'static str),
-    /// Columns and rows when nobody says.
-    pub(super) default_size: (u64, u64),
     /// Sizes that are right.
     pub(super) examples: &'static str,
     /// The word for the search that holds the robots.
@@ -32,6 +28,12 @@ pub(super) struct Small {
 }
 
 impl Small {
+    /// The most cells of a layout.
+    pub(super) const MOST_CELLS: usize = 16;
+
+    /// Columns and rows when nobody says.
+    const DEFAULT_SIZE: (u64, u64) = (3, 2);
+
     /// Robots when nobody says how many.
     const DEFAULT_ROBOTS: u64 = 2;
 
@@ -42,9 +44,10 @@ impl Small {
     pub(super) fn size(&self, asked: &HuntRequest<'_>) -> Result<Size, Diagnostic> {
         let size = match asked.size {
             Some(size) => size,
-            None => Size::new(self.default_size.0, self.default_size.1)?,
+            None => Size::new(Self::DEFAULT_SIZE.0, Self::DEFAULT_SIZE.1)?,
         };
-        let &Self { cell, most_cells, most_side: (most_side, side), examples, .. } = self;
+        let (most_cells, &Self { cell, most_side: (most_side, side), examples, .. }) =
+            (Self::MOST_CELLS, self);
         if size.cells() <= most_cells && size.width().max(size.height()) <= most_side {
             return Ok(size);
         }

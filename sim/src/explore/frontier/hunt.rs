@@ -29,9 +29,7 @@ const MOST_ROBOTS: u64 = 3;
 
 const SMALL: Small = Small {
     cell: "cell",
-    most_cells: 16,
     most_side: (i16::MAX, ""),
-    default_size: (3, 2),
     examples: "4x4 or 8x2",
     search: "this search",
     no_robots: "a hunt without a robot finds nothing",
@@ -130,7 +128,7 @@ fn drifting(
 
 /// Most obstacles that one run meets.
 fn most_obstacles(asked: &HuntRequest<'_>) -> u8 {
-    asked.max_walls.map_or(SMALL.most_cells as u8, |walls| walls.min(SMALL.most_cells as u32) as u8)
+    asked.max_walls.map_or(Small::MOST_CELLS as u8, |walls| walls.min(Small::MOST_CELLS as u32) as u8)
 }
 
 fn searched<const ROBOTS: usize>(

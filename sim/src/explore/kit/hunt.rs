@@ -16,7 +16,8 @@ use tautline_proofs::run::ScriptedRun;
 
 use super::team::{clause_of, reach};
 use crate::explore::hunt::{
-    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
+    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, areas,
+    layout,
 };
 use crate::explore::states::{Count, Search, Small};
 use crate::explore::{ClauseId, Setup};
@@ -27,9 +28,7 @@ const MOST_ROBOTS: u64 = 3;
 
 const SMALL: Small = Small {
     cell: "node",
-    most_cells: 16,
     most_side: (8, " and 8 on a side"),
-    default_size: (3, 2),
     examples: "4x3 or 8x2",
     search: "the joint search",
     no_robots: "a hunt for 0 robots",
@@ -120,9 +119,9 @@ impl Hunt for KernelHunt {
 /// same.
 fn lattices(size: Size) -> Vec<(i16, i16)> {
     let (columns, rows) = (size.width(), size.height());
-    let all = (1..=rows).flat_map(|height| (1..=columns).map(move |width| (width, height)));
     let is_new = |&(width, height): &(i16, i16)| width >= height || height > columns || width > rows;
-    let mut lattices: Vec<(i16, i16)> = all.filter(|&size| size != (1, 1)).filter(is_new).collect();
+    let mut lattices = areas(size);
+    lattices.retain(|size| *size != (1, 1) && is_new(size));
     lattices.sort_by_key(|&(width, height)| (width * height, width.min(height)));
     lattices
 }

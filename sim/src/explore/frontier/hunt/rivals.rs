@@ -7,10 +7,10 @@ use tautline_proofs::engine::cases::{self, Cases};
 use tautline_proofs::protocol::arrangements;
 
 use super::super::team::ENDS;
-use super::{SMALL, bounds, report, sized};
+use super::{bounds, report, sized};
 use crate::explore::by_layout::{Each, FoundBy};
 use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, areas};
-use crate::explore::states::Count;
+use crate::explore::states::{Count, Small};
 use crate::explore::{ClauseId, Limits, RuleId, Scheme, Setup, run, team};
 use tautline_grids::layout::Layout;
 
@@ -27,7 +27,7 @@ impl Each for RivalHunt {
     const TAKES: &'static [Bound] = &[Bound::Walls];
 
     fn layouts(&self, asked: &HuntRequest<'_>) -> Result<Layouts, Diagnostic> {
-        let (size, robots) = bounds(asked, SMALL.most_cells as u64)?;
+        let (size, robots) = bounds(asked, Small::MOST_CELLS as u64)?;
         let &HuntRequest { scheme, rule, max_walls, .. } = asked;
         Ok(Layouts {
             scheme,
@@ -49,7 +49,7 @@ impl Each for RivalHunt {
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
         found.sort_by_key(|finding| finding.clause);
-        Ok(report(asked, bounds(asked, SMALL.most_cells as u64)?, Count { is_complete, ..count }, found))
+        Ok(report(asked, bounds(asked, Small::MOST_CELLS as u64)?, Count { is_complete, ..count }, found))
     }
 }
 
