@@ -129,13 +129,8 @@ impl AssignedTeam {
 
     /// The unexplored cells beside explored ones that a robot reaches.
     fn frontier(&self) -> BTreeSet<Cell> {
-        let ways = self.cells.iter().map(|&cell| self.ways(cell));
-        ways.flat_map(|ways| ways.into_keys().filter(|&cell| self.is_unexplored(cell)).collect::<Vec<_>>())
-            .collect()
-    }
-
-    fn is_unexplored(&self, cell: Cell) -> bool {
-        self.chart.status(cell) == Status::Unexplored
+        let reached = self.cells.iter().flat_map(|&cell| self.ways(cell).into_keys());
+        reached.filter(|&cell| self.chart.status(cell) == Status::Unexplored).collect()
     }
 
     /// How far the cells are that are reached from `from` through explored ones.
@@ -192,13 +187,10 @@ impl AssignedTeam {
                 }
             }
             Assignment::Greedy => {
-                let mut pairs: Vec<_> = Vec::new();
-                for (place, ways) in ways.iter().enumerate() {
-                    let near =
-                        left.iter().filter_map(|&cell| Some((*ways.get(&cell)?, place, number(cell), cell)));
-                    pairs.extend(near);
-                }
-                pairs.sort_unstable();
+                let pair =
+                    |place: usize, cell: Cell| Some((*ways[place].get(&cell)?, place, number(cell), cell));
+                let of_robot = |place: usize| left.iter().filter_map(move |&cell| pair(place, cell));
+                let pairs: BTreeSet<_> = (0..free.len()).flat_map(of_robot).collect();
                 for (_, place, _, cell) in pairs {
                     if aims[free[place]].is_none() && !aims.contains(&Some(cell)) {
                         aims[free[place]] = Some(cell);

@@ -161,13 +161,11 @@ impl Radio {
             }
             return;
         };
-        let anchors = match &self.anchors[..] {
-            &[a, b, c] => [a, b, c],
-            all => match best_three(all, near) {
-                Some(three) => three,
-                None => return,
-            },
+        let three = match &self.anchors[..] {
+            &[a, b, c] => Some([a, b, c]),
+            all => best_three(all, near),
         };
+        let Some(anchors) = three else { return };
         let (dice, draws) = (&mut self.dice, self.options.readings().min(MOST_DRAWS));
         let each_db = mean.noise_db() * f64::from(draws).sqrt();
         let ranges = anchors.map(|anchor| {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use tautline_kernel::frontier::{
     Condition, Map, Next, Other, Place, Robot, Rule, Seeker, Sight, Slot, Status, Ties, View, taken_for,
 };
-use tautline_kernel::ground::{Area, Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_kernel::position::{Belief, Point, Sighting};
 use tautline_proofs::frontier::has_more;
 use tautline_proofs::run::Frame;
@@ -23,7 +23,6 @@ use tautline_grids::layout::Layout;
 pub struct Explorers {
     rule: Rule,
     layout: Layout,
-    area: Area,
     robots: Vec<Robot<Chart>>,
     /// Where the robots really are.
     cells: Vec<Cell>,
@@ -80,7 +79,6 @@ impl Explorers {
         Self {
             rule,
             layout: layout.clone(),
-            area,
             cells: starts.to_vec(),
             poses: starts.iter().copied().map(Pose::start).collect(),
             told: vec![others; starts.len()],
@@ -271,7 +269,7 @@ impl Explorers {
             }
             self.look_around(robot);
             let fix = self.poses[robot].fix();
-            self.robots[robot].arrived(&self.rule, taken_for(self.area, fix));
+            self.robots[robot].arrived(&self.rule, taken_for(self.layout.size().area(), fix));
             self.note(robot, self.robots[robot].at());
         }
         self.unsure = (0..robots).filter(|&robot| stands[robot]).collect();
@@ -307,12 +305,8 @@ impl Explorers {
 
     /// The next action of a robot by the rule of one robot.
     fn next_alone(&mut self, robot: usize) -> Next {
-        let others: Vec<Other> = self.told[robot]
-            .iter()
-            .enumerate()
-            .filter(|&(other, _)| other != robot)
-            .map(|(_, other)| *other)
-            .collect();
+        let others = self.told[robot].iter().enumerate().filter(|&(other, _)| other != robot);
+        let others: Vec<Other> = others.map(|(_, other)| *other).collect();
         let view = View { others: &others, slot: self.slot(robot) };
         let next =
             self.robots[robot].next(&self.rule, view, &mut self.memory.scratch(), &mut self.radio.dice);

@@ -194,10 +194,8 @@ impl Waves {
             }
             let mut pairs: Vec<(Pair, usize)> = Vec::new();
             for &robot in &free {
-                let there = self.by_robot[robot]
-                    .beyond(level)
-                    .iter()
-                    .take_while(|found| Some(found.distance) == near);
+                let beyond = self.by_robot[robot].beyond(level).iter();
+                let there = beyond.take_while(|found| Some(found.distance) == near);
                 let open = there.filter(|found| chart.status(found.cell) == Status::Unexplored);
                 pairs.extend(open.map(|&found| (Pair::new(chart, rule, seekers[robot], found), robot)));
             }
