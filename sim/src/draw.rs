@@ -270,12 +270,8 @@ impl Labels<'_> {
     /// Columns of the widest label.
     fn width(&self) -> usize {
         let least = if self.cells.len() > 9 { 4 } else { 3 };
-        self.cells
-            .iter()
-            .map(|&cell| self.label(cell, Mark::Unexplored).chars().count())
-            .max()
-            .unwrap_or(0)
-            .max(least)
+        let widths = self.cells.iter().map(|&cell| self.label(cell, Mark::Unexplored).chars().count());
+        widths.max().unwrap_or(0).max(least)
     }
 }
 

@@ -157,17 +157,13 @@ pub fn turns(course: &Course) -> Result<(String, Vec<Block>), Diagnostic> {
         }
     }
     let is_unexplored = |(_, mark): &&(Cell, Mark)| *mark == Mark::Unexplored;
-    match (round, end.marks.iter().filter(is_unexplored).count()) {
-        (0, 0) => {}
-        (0, left) => {
-            let _ = writeln!(words, "  The run ends with {} unexplored.", counted(left, "cell"));
-        }
-        (round, _) => {
-            let _ = writeln!(words, "  The last {round} of {} turns can go on for ever.", turns.len());
-        }
-    }
+    let last = match (round, end.marks.iter().filter(is_unexplored).count()) {
+        (0, 0) => String::new(),
+        (0, left) => format!("  The run ends with {} unexplored.\n", counted(left, "cell")),
+        (round, _) => format!("  The last {round} of {} turns can go on for ever.\n", turns.len()),
+    };
     blocks.push(Block { title: "the end".to_owned(), lines: agents(&layout, end, None) });
-    Ok((format!("{}\n\n{words}", legend(Look::Apart)), blocks))
+    Ok((format!("{}\n\n{words}{last}", legend(Look::Apart)), blocks))
 }
 
 /// How the last team move of `run`, or its end, breaks its clauses.

@@ -133,15 +133,13 @@ fn out_of_range(made: &TeamMove<'_>) -> Vec<String> {
 fn crowded(team: &[Cell]) -> Vec<String> {
     let mut crowded: Vec<Cell> = team.iter().copied().filter(|&cell| cell != team[0]).collect();
     crowded.sort_unstable();
-    crowded
-        .chunk_by(|one, other| one == other)
-        .filter(|cells| cells.len() > 2)
-        .map(|cells| {
-            let here = (1..).zip(team).filter(|&(_, &cell)| cell == cells[0]);
-            let robots: Vec<String> = here.map(|(robot, _)| format!("R_{robot}")).collect();
-            format!("So {} are in one cell, {}.", robots.join(", "), cells[0])
-        })
-        .collect()
+    let too_many = crowded.chunk_by(|one, other| one == other).filter(|cells| cells.len() > 2);
+    let told = |cells: &[Cell]| {
+        let here = (1..).zip(team).filter(|&(_, &cell)| cell == cells[0]);
+        let robots: Vec<String> = here.map(|(robot, _)| format!("R_{robot}")).collect();
+        format!("So {} are in one cell, {}.", robots.join(", "), cells[0])
+    };
+    too_many.map(told).collect()
 }
 
 /// The neighbours in the chain that commit `breach` by themselves, in the words of `told`: by the number of the one

@@ -48,13 +48,8 @@ pub(super) fn lines(area: Area) -> String {
 
 /// The lines between cells, and the blocked cells.
 pub(super) fn ground(layout: &Layout, area: Area) -> String {
-    lines(area) + &blocked(layout, area)
-}
-
-/// The blocked cells.
-fn blocked(layout: &Layout, area: Area) -> String {
     let path = stripes(Frame(area), area.cells().filter(|&cell| !layout.is_free(cell)));
-    if path.is_empty() { path } else { format!("<path class=\"blocked\" d=\"{path}\"/>") }
+    lines(area) + &if path.is_empty() { path } else { format!("<path class=\"blocked\" d=\"{path}\"/>") }
 }
 
 /// The outlines of `cells`, which come row by row; those beside each other have one.
