@@ -174,11 +174,6 @@ impl<D: SensorData> SensorFloor<D> {
         self.places.get(self.index(cell))
     }
 
-    /// Whether an agent can leave `cell` through `side`.
-    fn has_open(&self, cell: Cell, side: Side) -> bool {
-        self.place(cell).is_some_and(|place| place.open & 1 << side as u8 != 0)
-    }
-
     /// The place in [`SensorFloor::components`] of that of `cell`, if agents can get there.
     fn component(&self, cell: Cell) -> Option<usize> {
         self.place(cell).and_then(|place| usize::from(place.component).checked_sub(1))
@@ -261,6 +256,6 @@ impl<D: SensorData> Floor<D> for SensorFloor<D> {
 
     #[inline]
     fn is_open(&self, edge: Edge) -> bool {
-        self.has_open(edge.cell(), edge.side())
+        self.place(edge.cell()).is_some_and(|place| place.open & 1 << edge.side() as u8 != 0)
     }
 }
