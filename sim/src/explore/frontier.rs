@@ -27,8 +27,6 @@ const WANDERS: RuleId = RuleId::new("wanders");
 /// The most robots of a team.
 const MAX_ROBOTS: usize = 64;
 
-const MISSED: &str = "Within reach and unexplored";
-
 /// A rival, of which every layout is tried.
 macro_rules! assigned {
     ($name:expr, $about:expr, $assignment:expr) => {
@@ -78,7 +76,7 @@ pub static FRONTIER: Profile = Profile {
     ],
     look: Look::Robots,
     clauses: &[
-        Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
+        Clause { missed: Some("Within reach and unexplored"), ..Clause::new(COVERS.as_str()) },
         Clause::new(ALONE.as_str()),
         Clause::new(ENDS.as_str()),
         Clause::new(KNOWS.as_str()),

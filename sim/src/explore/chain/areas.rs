@@ -78,20 +78,17 @@ fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<Hu
     let (robots, runs, moves) = (robots as u64, found.runs(), found.moves());
     let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
     let bases: u64 = found.searched.iter().map(|area| area.bases).sum();
-    let all_areas = counted(found.searched.len(), "area");
+    let searched = format!("{} with {}", counted(found.searched.len(), "area"), counted(bases, "place"));
+    let searched = searched + " of the base";
+    let (cells, walls) = (counted(max_cells, "cell"), counted(max_walls, "wall"));
+    let within = format!("{}, at most {cells} and {walls}", counted(robots, "robot"));
     let covered = found.cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
     Ok(HuntReport {
         robots,
         facts: Facts::Areas { runs, moves, max_walls, max_cells, areas: found.searched.clone() },
         is_complete: found.is_complete,
         done: CoveredBound::CellsDone(found.cells),
-        title: format!(
-            "{}, at most {} and {}: {all_areas} with {}, {all_runs}, {all_moves}",
-            counted(robots, "robot"),
-            counted(max_cells, "cell"),
-            counted(max_walls, "wall"),
-            counted(bases, "place") + " of the base"
-        ),
+        title: format!("{within}: {searched}, {all_runs}, {all_moves}"),
         through: format!("{all_runs} and {all_moves}"),
         outcome: outcome(&findings, found.is_complete, covered),
         not_minimised: Vec::new(),

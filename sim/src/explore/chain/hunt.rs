@@ -171,16 +171,13 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
     let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
     let covered = done.map(|walls| format!("with at most {}", counted(walls, "wall")));
     let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
+    let within = format!("{}, at most {}", counted(robots, "robot"), counted(max_walls, "wall"));
     Ok(HuntReport {
         robots,
         facts: Facts::Runs { runs, moves, longest, max_walls },
         is_complete: found.complete && found.given_up == 0,
         done: CoveredBound::WallsDone(done),
-        title: format!(
-            "{}, at most {}: {all_runs}, {all_moves}, {longest} the longest",
-            counted(robots, "robot"),
-            counted(max_walls, "wall")
-        ),
+        title: format!("{within}: {all_runs}, {all_moves}, {longest} the longest"),
         through: format!("{all_runs} and {all_moves}"),
         outcome: outcome(&findings, done == Some(max_walls) && found.given_up == 0, covered),
         not_minimised: Vec::new(),

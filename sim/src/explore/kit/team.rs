@@ -87,8 +87,7 @@ impl Team for KitTeam {
     }
 
     fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
-        let knows_its_end = self.course.knows_its_end();
-        if self.is_driven() && !knows_its_end {
+        if self.is_driven() && !self.course.knows_its_end() {
             return Err(End::Explored);
         }
         if self.idle > PATIENCE * self.due.len() {
