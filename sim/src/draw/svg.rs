@@ -80,9 +80,7 @@ pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> Panel {
     let frame = Frame(area);
     let Setup { layout, scheme, .. } = run.setup();
     let mut body = ground(layout, area);
-    for cell in area.cells() {
-        body.push_str(&marked_cell(frame, cell, chart.mark(cell, made.step)));
-    }
+    body.extend(area.cells().map(|cell| marked_cell(frame, cell, chart.mark(cell, made.step))));
     body.push_str(&walls(layout, area));
     body.push_str(&team(scheme.look, frame, made));
     panel(area, super::title(made), body)
@@ -159,9 +157,7 @@ pub fn environments() -> Vec<Panel> {
     Environment::ALL
         .map(|environment| {
             let mut body = lines(area);
-            for cell in environment.offsets() {
-                body += &square("member", frame.corner(cell), CELL);
-            }
+            body.extend(environment.offsets().map(|cell| square("member", frame.corner(cell), CELL)));
             let (x, y) = frame.centre(centre);
             if let Some(radius) = environment.radius() {
                 let radius = radius * f64::from(CELL);

@@ -71,7 +71,10 @@ pub(super) fn minimise(
                 return Err(halt.into());
             }
             watcher.progress.runs += 1;
-            let is_wanted = |found: &Finding| matches!(found.shown, Exhibit::Run(id) | Exhibit::Story(id, _) if id == violation.clause);
+            let is_wanted = |found: &Finding| match found.shown {
+                Exhibit::Run(clause) | Exhibit::Story(clause, _) => clause == violation.clause,
+                Exhibit::Endless | Exhibit::Told(_) => false,
+            };
             let Some(found) = hunted.found.into_iter().find(is_wanted) else { continue };
             let report = explore(&found.setup, &mut |_| Ok(()))?;
             let after = extent(&found.setup, report.steps);

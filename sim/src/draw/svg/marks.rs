@@ -73,9 +73,7 @@ pub(super) fn walls(layout: &Layout, area: Area) -> String {
     let frame = Frame(area);
     let (columns, rows) = (CELL * area.width() as i32, CELL * area.height() as i32);
     let mut path = format!("M0 0h{columns}v{rows}h-{columns}z");
-    for edge in area.edges().filter(|&edge| layout.has_wall(edge)) {
-        path.push_str(&side(frame, edge));
-    }
+    path.extend(area.edges().filter(|&edge| layout.has_wall(edge)).map(|edge| side(frame, edge)));
     format!("<path class=\"walls\" d=\"{path}\"/>")
 }
 
@@ -155,9 +153,7 @@ pub(super) fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
             body.push_str(&way(frame, from, side, made.frame.blocked[robot]));
         }
     }
-    for robot in first_drawn(look)..after.len() {
-        body.push_str(&self::robot(look, frame, after, robot));
-    }
+    body.extend((first_drawn(look)..after.len()).map(|robot| self::robot(look, frame, after, robot)));
     body
 }
 
