@@ -1,4 +1,4 @@
-//! What several bodies are made of.
+//! Parts of several bodies.
 
 use tautline_io::diagnostic::Diagnostic;
 

@@ -346,7 +346,10 @@ impl Extra {
     /// How robots find their positions.
     pub const SWARM: &'static Self = &Self {
         about: "Robots find each position by a swarm of particles, as in the paper, in place of least squares",
-        read: |_, options| put(Ok::<_, String>(true), &mut options.swarm),
+        read: |_, options| {
+            options.swarm = true;
+            Ok(())
+        },
         typed: |options| options.swarm.then(String::new),
         wrong: |options, _, _| {
             let is_right = !options.swarm || options.noise_db > 0.0;
@@ -431,7 +434,10 @@ impl Extra {
     /// In what order robots go.
     pub const SPEEDS: &'static Self = &Self {
         about: "The robots of a chain go one after the other, in a new random order in each team move",
-        read: |_, options| put(Ok::<_, String>(MoveOrder::OneByOne), &mut options.going),
+        read: |_, options| {
+            options.going = MoveOrder::OneByOne;
+            Ok(())
+        },
         typed: |options| (!options.going.is_usual()).then(String::new),
         ..Self::new("speeds")
     };

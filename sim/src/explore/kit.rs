@@ -1,5 +1,5 @@
-//! KIT \[Peiris\]: robots that drive every path between two nodes and keep in touch, 3 m from node to node: its row, and
-//! the start of its team.
+//! KIT \[Peiris\]: robots that drive every path between two nodes and keep in touch, 3 m from node to node: its row,
+//! and the start of its team.
 
 mod hunt;
 mod layers;

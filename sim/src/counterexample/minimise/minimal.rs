@@ -41,7 +41,7 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// What is wrong, and the remedy.
+    /// The fault and its remedy.
     fn words(&self) -> (String, String) {
         let (what, remedy) = match self {
             Self::Unbroken => (

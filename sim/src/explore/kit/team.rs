@@ -1,5 +1,5 @@
-//! The team of KIT. A team move is one robot's drive, in the order in which they begin; whoever drives is drawn where it
-//! arrives.
+//! The team of KIT. A team move is one robot's drive, in the order in which they begin; whoever drives is drawn where
+//! it arrives.
 //!
 //! As published no robot knows when everything is driven: whoever watches them ends the run then. A run in
 //! which no new path is driven for twenty drives a path is over.
