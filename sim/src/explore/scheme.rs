@@ -25,35 +25,6 @@ use crate::options::{Extra, Options};
 use tautline_grids::chance::Probability;
 use tautline_grids::layout::{Layout, Size};
 
-/// A run before its start: what stands still while it goes on. The same setup makes the same run.
-#[derive(Clone, Debug)]
-pub struct Setup {
-    /// The scheme.
-    pub scheme: Scheme,
-    /// One of its rules.
-    pub rule: RuleId,
-    /// Robots, the base of a chain included.
-    pub robots: u16,
-    /// The seed of whatever is left to chance.
-    pub seed: u64,
-    /// The ground truth.
-    pub layout: Layout,
-    /// Where the robots start that have no start of their own: a free cell.
-    pub base: Cell,
-    /// Where each agent starts, if not all start at the base: free cells.
-    pub starts: Option<Vec<Cell>>,
-    /// How likely it is that an agent misses a sensor that it could see.
-    pub miss: Probability,
-    /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
-    pub missed: Vec<u32>,
-    /// The options that the run is told.
-    pub options: Options,
-    /// The choices that make the run, where a search has found it; else it is left to chance.
-    pub choices: Vec<u32>,
-    /// When the run is stopped.
-    pub limits: Limits,
-}
-
 /// The schemes that a program knows, in lists behind each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Catalogue(pub &'static [&'static [&'static Profile]]);
@@ -105,18 +76,6 @@ pub struct Profile {
 
 /// Writes down a run of these team moves that is said to break a clause; `None` if no judge reads it.
 pub type WriteCase = fn(&Setup, ClauseId, &[Frame]) -> Option<Box<dyn Case>>;
-
-impl fmt::Debug for Scheme {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.row.fmt(f)
-    }
-}
-
-impl fmt::Debug for Profile {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name)
-    }
-}
 
 /// A clause that a run can break.
 #[derive(Clone, Copy, Debug)]
@@ -199,6 +158,35 @@ pub trait Switches: fmt::Debug + Sync {
     fn hunt(&self, in_force: u16) -> Option<Box<dyn Hunt>>;
 }
 
+/// A run before its start: what stands still while it goes on. The same setup makes the same run.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// One of its rules.
+    pub rule: RuleId,
+    /// Robots, the base of a chain included.
+    pub robots: u16,
+    /// The seed of whatever is left to chance.
+    pub seed: u64,
+    /// The ground truth.
+    pub layout: Layout,
+    /// Where the robots start that have no start of their own: a free cell.
+    pub base: Cell,
+    /// Where each agent starts, if not all start at the base: free cells.
+    pub starts: Option<Vec<Cell>>,
+    /// How likely it is that an agent misses a sensor that it could see.
+    pub miss: Probability,
+    /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
+    pub missed: Vec<u32>,
+    /// The options that the run is told.
+    pub options: Options,
+    /// The choices that make the run, where a search has found it; else it is left to chance.
+    pub choices: Vec<u32>,
+    /// When the run is stopped.
+    pub limits: Limits,
+}
+
 /// A search of all layouts within bounds for runs that break a clause.
 pub trait Hunt: fmt::Debug + Sync {
     /// The bounds that it takes besides the number of robots, the size and the budget.
@@ -232,54 +220,6 @@ pub trait Hunt: fmt::Debug + Sync {
     fn begin(&self, _asked: &HuntRequest<'_>) -> Result<Option<Box<dyn OngoingHunt>>, Diagnostic> {
         Ok(None)
     }
-}
-
-/// A hunt that is made a little at a time.
-pub trait OngoingHunt {
-    /// Hunts a little further. Returns whether there is more to do, and to spend.
-    fn step(&mut self) -> bool;
-
-    /// How far it is.
-    fn progress(&self) -> Progress<'_>;
-
-    /// The report of what was found so far, for what was `asked`.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if what was found fits into no layout.
-    fn report(&self, asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic>;
-}
-
-/// A hunt that can be dealt out among shards, each of which is searched where one likes.
-pub trait Deals {
-    /// Deals out what is `asked` among so many shards.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if it cannot be searched so.
-    fn deal(&self, asked: &HuntRequest<'_>, shards: usize) -> Result<Dealt, Diagnostic>;
-
-    /// One shard of a deal, the first being 0, of so many, where it was. The scheme, the rule and the budget are
-    /// `asked`, all else the deal has.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if there is no such deal, or the shard was never there.
-    fn part<'a>(
-        &'a self,
-        asked: &HuntRequest<'_>,
-        deal: &RawValue,
-        shard: (usize, usize),
-        far: Option<&RawValue>,
-    ) -> Result<Box<dyn Part + 'a>, Diagnostic>;
-
-    /// The report of what all shards have found. The scheme and the rule are `asked`.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if they do not fit their deal.
-    fn merge(
-        &self,
-        asked: &HuntRequest<'_>,
-        deal: &RawValue,
-        shards: &[&RawValue],
-    ) -> Result<HuntReport, Diagnostic>;
 }
 
 /// The question that a hunt answers. Whatever is not given is the hunt's to choose.
@@ -348,4 +288,64 @@ pub struct Finding {
     pub setup: Setup,
     /// How it is shown, and whether it is stored.
     pub shown: Exhibit,
+}
+
+/// A hunt that is made a little at a time.
+pub trait OngoingHunt {
+    /// Hunts a little further. Returns whether there is more to do, and to spend.
+    fn step(&mut self) -> bool;
+
+    /// How far it is.
+    fn progress(&self) -> Progress<'_>;
+
+    /// The report of what was found so far, for what was `asked`.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if what was found fits into no layout.
+    fn report(&self, asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic>;
+}
+
+/// A hunt that can be dealt out among shards, each of which is searched where one likes.
+pub trait Deals {
+    /// Deals out what is `asked` among so many shards.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if it cannot be searched so.
+    fn deal(&self, asked: &HuntRequest<'_>, shards: usize) -> Result<Dealt, Diagnostic>;
+
+    /// One shard of a deal, the first being 0, of so many, where it was. The scheme, the rule and the budget are
+    /// `asked`, all else the deal has.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if there is no such deal, or the shard was never there.
+    fn part<'a>(
+        &'a self,
+        asked: &HuntRequest<'_>,
+        deal: &RawValue,
+        shard: (usize, usize),
+        far: Option<&RawValue>,
+    ) -> Result<Box<dyn Part + 'a>, Diagnostic>;
+
+    /// The report of what all shards have found. The scheme and the rule are `asked`.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if they do not fit their deal.
+    fn merge(
+        &self,
+        asked: &HuntRequest<'_>,
+        deal: &RawValue,
+        shards: &[&RawValue],
+    ) -> Result<HuntReport, Diagnostic>;
+}
+
+impl fmt::Debug for Scheme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.row.fmt(f)
+    }
+}
+
+impl fmt::Debug for Profile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
 }
