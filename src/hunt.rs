@@ -21,7 +21,7 @@ use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::folder::{again, clear, keep, make_folder, shown};
 use super::options::ForceArgs;
 use super::output::{Output, replay_line};
-use super::shards::{self, Scope, ShardArgs};
+use super::shards::{self, Scope};
 use super::value_parser::{self, SizeArg};
 use super::{interrupt, progress};
 use tautline_sim::draw::story;
@@ -99,8 +99,19 @@ pub(super) struct Hunt {
     /// Keep the hunt in FILE while it goes on; if FILE is there, go on from it, also with more walls.
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
-    #[command(flatten)]
-    shard: ShardArgs,
+    /// The plan: with --shards it is stored in FILE, with --shard it is read from there.
+    #[arg(long, value_name = "FILE")]
+    plan: Option<PathBuf>,
+    /// Do nothing yet, but deal the work out among N shards, each to be run on any machine.
+    #[arg(long, value_name = "N", value_parser = whole::<u32>, requires = "plan")]
+    #[arg(conflicts_with_all = ["shard", "resume", "budget", "out"])]
+    shards: Option<u32>,
+    /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
+    #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
+    #[arg(conflicts_with_all = ["scheme", "rule", "robots", "max_walls", "max_cells"])]
+    #[arg(conflicts_with_all = ["max_misses", "max_losses", "error", "range", "size"])]
+    #[arg(conflicts_with_all = ["resume", "out", "force"])]
+    shard: Option<u32>,
     /// The folder for the counterexamples.
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
@@ -175,7 +186,7 @@ impl Hunter for Watcher<'_> {
 
 impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        match self.shard.wanted()? {
+        match Scope::of(self.plan.as_deref(), self.shards, self.shard)? {
             Scope::All => self.hunt(out),
             Scope::Plan(path, shards) => self.plan(path, shards, out),
             Scope::Shard(path, shard) => {

@@ -1,39 +1,19 @@
 //! Work dealt out to many machines: a plan, and one of its shards.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::value::RawValue;
 use tautline_io::checkpoint::{Checkpoint, Facts, Part};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards::{Plan, Work};
-use tautline_io::value_parser::whole;
 
 use super::exit::Exit;
 use super::folder::shown;
 use super::options::{ForceArgs, Format};
 use super::output::Output;
 use super::{interrupt, progress};
-
-/// One shard of a plan.
-#[derive(Debug, Args)]
-pub(super) struct ShardArgs {
-    /// The plan: with --shards it is stored in FILE, with --shard it is read from there.
-    #[arg(long, value_name = "FILE")]
-    pub(super) plan: Option<PathBuf>,
-    /// Do nothing yet, but deal the work out among N shards, each to be run on any machine.
-    #[arg(long, value_name = "N", value_parser = whole::<u32>, requires = "plan")]
-    #[arg(conflicts_with_all = ["shard", "resume", "budget", "out"])]
-    pub(super) shards: Option<u32>,
-    /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
-    #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
-    #[arg(conflicts_with_all = ["scheme", "rule", "robots", "max_walls", "max_cells"])]
-    #[arg(conflicts_with_all = ["max_misses", "max_losses", "error", "range", "size"])]
-    #[arg(conflicts_with_all = ["resume", "out", "force"])]
-    pub(super) shard: Option<u32>,
-}
 
 /// The work that is asked for with a plan.
 pub(super) enum Scope<'a> {
@@ -43,16 +23,6 @@ pub(super) enum Scope<'a> {
     Plan(&'a Path, u32),
     /// One shard.
     Shard(&'a Path, u32),
-}
-
-impl ShardArgs {
-    /// The work that is asked for.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if a plan alone is given.
-    pub(super) fn wanted(&self) -> Result<Scope<'_>, Diagnostic> {
-        Scope::of(self.plan.as_deref(), self.shards, self.shard)
-    }
 }
 
 impl<'a> Scope<'a> {
