@@ -2,6 +2,9 @@
 //! one that defines what it names; one that passes a name on and does not use it needs nobody.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::slice;
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use crate::tidy::sources;
 
@@ -27,252 +30,222 @@ const CRATES: [&str; 18] = [
     "web",
 ];
 
+/// The segments of a path.
+type Path = Vec<String>;
+
 /// A name as it is imported: its path, how it is called here, and whether it is passed on.
-struct Import<'a> {
-    path: Vec<&'a str>,
-    name: &'a str,
+struct Import {
+    path: Path,
+    name: String,
     is_public: bool,
 }
 
 /// The names in a file.
 #[derive(Default)]
-struct Names<'a> {
-    imports: Vec<Import<'a>>,
+struct Names {
+    imports: Vec<Import>,
     /// The paths of two segments and more behind the imports.
-    paths: Vec<Vec<&'a str>>,
+    paths: Vec<Path>,
     /// The words behind the imports.
-    words: BTreeSet<&'a str>,
+    words: BTreeSet<String>,
     /// The modules that it declares.
-    modules: BTreeSet<&'a str>,
+    modules: BTreeSet<String>,
 }
 
 /// The files of a crate, by their modules.
-type Modules<'a> = BTreeMap<Vec<&'a str>, Names<'a>>;
+type Modules = BTreeMap<Path, Names>;
 
-/// Where a module within a file begins and ends: rustfmt lets its brace stand as far in as its first line.
-const BEGINS: &str = "mod {";
-const ENDS: &str = "mod }";
+fn word(token: Option<&TokenTree>) -> Option<String> {
+    token.filter(|token| matches!(token, TokenTree::Ident(_))).map(TokenTree::to_string)
+}
 
-/// The text without comments and strings. Tests within a file may name whatever they test.
-fn code(text: &str) -> String {
-    let is_test = |(start, _): &(usize, &str)| {
-        let line = text[*start..].lines().nth(1);
-        line.is_some_and(|line| line.starts_with("mod ") && line.ends_with('{'))
-    };
-    let end = text.match_indices("#[cfg(test)]").find(is_test).map_or(text.len(), |(start, _)| start);
-    let (mut rest, mut code) = (&text[..end], String::new());
-    let after = |text: &'_ str, end: &str| text.find(end).map_or(text.len(), |start| start + end.len());
-    while let Some(start) = rest.find(['/', '"', '\'']) {
-        code += &rest[..start];
-        let (found, is_raw) = (&rest[start..], code.ends_with("r#"));
-        rest = match found {
-            _ if found.starts_with("//") => &found[after(found, "\n") - 1..],
-            _ if found.starts_with('"') && is_raw => &found[after(found, "\"#")..],
-            _ if found.starts_with('"') => {
-                let is_end = |place: &usize| {
-                    let before =
-                        found.as_bytes()[1..*place].iter().rev().take_while(|&&sign| sign == b'\\').count();
-                    found.as_bytes()[*place] == b'"' && before % 2 == 0
-                };
-                &found[(1..found.len()).find(is_end).map_or(found.len(), |end| end + 1)..]
-            }
-            // A sign, and no lifetime.
-            _ if found.starts_with("'\"'") => &found[3..],
-            _ => &found[1..],
+fn is(token: Option<&TokenTree>, sign: char) -> bool {
+    matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == sign)
+}
+
+/// The tokens of a group.
+fn inside(token: Option<&TokenTree>) -> Option<Vec<TokenTree>> {
+    let Some(TokenTree::Group(group)) = token else { return None };
+    Some(group.stream().into_iter().collect())
+}
+
+/// The paths in the tree of a `use`, below `above`, and how their ends are called here.
+fn leaves(tree: &[TokenTree], above: &[String]) -> Vec<(Path, String)> {
+    let branches = tree.split(|token| is(Some(token), ',')).filter(|branch| !branch.is_empty());
+    let paths = branches.flat_map(|branch| {
+        let mut path = above.to_vec();
+        let (named, other) = match branch {
+            [named @ .., TokenTree::Ident(renamed), other] if renamed == "as" => (named, word(Some(other))),
+            _ => (branch, None),
         };
-    }
-    code + rest
-}
-
-/// Words, `::`, single signs, and where modules within the file begin and end.
-fn tokens(code: &str) -> Vec<&str> {
-    let (mut tokens, mut inner) = (Vec::new(), Vec::new());
-    for line in code.lines() {
-        let indent = line.len() - line.trim_start().len();
-        let mut rest = line;
-        while let Some(sign) = rest.chars().next() {
-            let word = rest.find(|sign: char| !sign.is_alphanumeric() && sign != '_').unwrap_or(rest.len());
-            let length = if rest.starts_with("::") { 2 } else { word.max(sign.len_utf8()) };
-            tokens.extend(Some(&rest[..length]).filter(|token| !token.trim().is_empty()));
-            rest = &rest[length..];
+        path.extend(named.iter().filter_map(|token| word(Some(token))));
+        if let Some(tree) = inside(branch.last()) {
+            return leaves(&tree, &path);
         }
-        if line.ends_with('{') && line.split_whitespace().any(|word| word == "mod") {
-            inner.push(indent);
-            tokens.push(BEGINS);
-        } else if line.trim() == "}" && inner.pop_if(|start| *start == indent).is_some() {
-            tokens.push(ENDS);
-        }
-    }
-    tokens
-}
-
-fn is_word(token: &str) -> bool {
-    token.chars().all(|sign| sign.is_alphanumeric() || sign == '_')
-}
-
-/// The leaves of the tree of a `use`, below `path`.
-fn leaves<'a>(
-    tokens: &mut impl Iterator<Item = &'a str>,
-    path: &[&'a str],
-    is_public: bool,
-) -> Vec<Import<'a>> {
-    let (mut imports, mut path, above) = (Vec::new(), path.to_vec(), path.len());
-    let (mut name, mut is_renamed) = (None, false);
-    while let Some(token) = tokens.next() {
-        match token {
-            "::" => {}
-            "as" => is_renamed = true,
-            "{" => {
-                name = None;
-                imports.extend(leaves(tokens, &path, is_public));
-                path.truncate(above);
-            }
-            "," | "}" | ";" => {
-                if name == Some("self") {
-                    path.pop();
-                    name = path.last().copied();
-                }
-                is_renamed = false;
-                let name = name.take();
-                imports.extend(name.map(|name| Import { path: path.clone(), name, is_public }));
-                path.truncate(above);
-                if token != "," {
-                    break;
-                }
-            }
-            word => {
-                path.extend(Some(word).filter(|_| !is_renamed));
-                name = Some(word);
-            }
-        }
-    }
-    imports
+        path.extend(Some("*".to_owned()).filter(|_| is(branch.last(), '*')));
+        let _ = path.pop_if(|last| last == "self" && branch.len() == 1 && !above.is_empty());
+        let name = other.or_else(|| path.last().cloned()).unwrap_or_default();
+        vec![(path, name)]
+    });
+    paths.collect()
 }
 
 /// A path that stands so many modules within its file, as the file itself would write it.
-fn outward(path: Vec<&str>, within: usize) -> Vec<&str> {
-    let inner = path.iter().take(within).filter(|&&segment| segment == "super").count();
-    if inner == 0 { path } else { [&["self"], &path[inner..]].concat() }
+fn outward(path: Path, within: usize) -> Path {
+    let supers = path.iter().take_while(|&segment| segment == "super").count();
+    match supers.min(within) {
+        0 => path,
+        inner if inner < supers => path[inner..].to_vec(),
+        inner => [&["self".to_owned()], &path[inner..]].concat(),
+    }
 }
 
-fn names(code: &str) -> Names<'_> {
-    let mut names = Names::default();
-    let tokens = tokens(code);
-    let (mut place, mut within) = (0, 0);
-    while let Some(&token) = tokens.get(place) {
+/// Reads what stands so many modules within a file, in braces or not. Tests may name whatever they test.
+fn read(tokens: &[TokenTree], (within, is_braced): (usize, bool), names: &mut Names) {
+    let mut place = 0;
+    while let Some(token) = tokens.get(place) {
+        let token = Some(token);
         let before = place.checked_sub(1).and_then(|place| tokens.get(place));
-        if token == "use" && !matches!(before, Some(&"+" | &"->")) {
-            let end = tokens[place..].iter().position(|&token| token == ";");
-            let end = end.map_or(tokens.len(), |end| place + end + 1);
-            let is_public = matches!(before, Some(&"pub" | &")"));
-            let imports = leaves(&mut tokens[place + 1..end].iter().copied(), &[], is_public).into_iter();
-            names
-                .imports
-                .extend(imports.map(|import| Import { path: outward(import.path, within), ..import }));
-            place = end;
-            continue;
-        }
-        within = within + usize::from(token == BEGINS) - usize::from(token == ENDS);
-        let mut path = vec![token];
-        while let (Some(&"::"), Some(next)) = (tokens.get(place + 1), tokens.get(place + 2))
-            && is_word(next)
-        {
-            path.push(next);
-            place += 2;
-        }
-        let is_part = matches!(before, Some(&"mod" | &"." | &"let" | &"fn"));
-        // So stand variants and fields in a list, which may be called as anything is.
-        let is_listed =
-            matches!(before, Some(&"{" | &"," | &"]")) && matches!(tokens.get(place + 1), Some(&"," | &"}"));
-        names.modules.extend(Some(token).filter(|_| before == Some(&"mod")));
-        if is_word(token) && !is_part {
-            names.words.extend(Some(token).filter(|_| !is_listed));
-            names.paths.extend(Some(outward(path, within)).filter(|path| path.len() > 1));
-        }
+        let next = tokens.get(place + 1);
+        let (this, ahead) = (word(token), word(next));
         place += 1;
+        match (this.as_deref(), ahead) {
+            (Some("use"), _) if !is(next, '<') => {
+                let end = tokens[place..].iter().position(|token| is(Some(token), ';'));
+                let end = end.map_or(tokens.len(), |end| place + end);
+                let is_public = match before {
+                    // As in `pub(crate) use`.
+                    Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Parenthesis,
+                    before => word(before).is_some_and(|before| before == "pub"),
+                };
+                let imports = leaves(&tokens[place..end], &[]).into_iter();
+                names.imports.extend(imports.map(|(path, name)| Import {
+                    path: outward(path, within),
+                    name,
+                    is_public,
+                }));
+                place = end;
+            }
+            (Some("mod"), Some(module)) => {
+                let is_test =
+                    before.is_some_and(|attribute| attribute.to_string().replace(' ', "") == "[cfg(test)]");
+                if let Some(inner) = inside(tokens.get(place + 1)).filter(|_| !is_test) {
+                    read(&inner, (within + 1, true), names);
+                }
+                names.modules.insert(module);
+                place += 2;
+            }
+            (Some(first), _) => {
+                let mut path = vec![first.to_owned()];
+                while is(tokens.get(place), ':')
+                    && is(tokens.get(place + 1), ':')
+                    && let Some(segment) = word(tokens.get(place + 2))
+                {
+                    path.push(segment);
+                    place += 3;
+                }
+                // So stand variants and fields in a list, which may be called as anything is.
+                let is_listed = is_braced
+                    && (before.is_none() || is(before, ',') || inside(before).is_some())
+                    && (next.is_none() || is(next, ','));
+                if !is(before, '.') && !is_listed {
+                    names.words.insert(first.to_owned());
+                }
+                names.paths.extend(Some(outward(path, within)).filter(|path| path.len() > 1));
+            }
+            (None, _) => inside(token).into_iter().for_each(|inner| {
+                let is_braced =
+                    matches!(token, Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace);
+                read(&inner, (within, is_braced), names);
+            }),
+        }
     }
+}
+
+fn names(text: &str) -> Names {
+    let tokens: TokenStream = text.parse().expect("Rust");
+    let mut names = Names::default();
+    read(&tokens.into_iter().collect::<Vec<_>>(), (0, false), &mut names);
     names
 }
 
 /// The path from the root of the crate, if a module means one of it by `path`.
-fn absolute<'a>(modules: &Modules<'a>, module: &[&'a str], path: &[&'a str]) -> Option<Vec<&'a str>> {
-    let (&first, rest) = path.split_first()?;
-    let below = |module: &[&'a str]| Some([module, rest].concat());
-    match first {
+fn absolute(modules: &Modules, module: &[String], path: &[String]) -> Option<Path> {
+    let (first, rest) = path.split_first()?;
+    let below = |module: &[String]| Some([module, rest].concat());
+    match first.as_str() {
         "crate" => below(&[]),
         "self" => below(module),
-        "super" if rest.first() == Some(&"super") => absolute(modules, module.split_last()?.1, rest),
+        "super" if rest.first().is_some_and(|next| next == "super") => {
+            absolute(modules, module.split_last()?.1, rest)
+        }
         "super" => below(module.split_last()?.1),
-        child if modules.contains_key(&[module, &[child]].concat()) => Some([module, path].concat()),
+        _ if modules.contains_key(&[module, &path[..1]].concat()) => Some([module, path].concat()),
         name => {
             let import = modules[module].imports.iter().find(|import| import.name == name)?;
             let path = Some(&import.path).filter(|path| path[0] != name)?;
-            Some([absolute(modules, module, path)?, rest.to_vec()].concat())
+            Some([&absolute(modules, module, path)?, rest].concat())
         }
     }
 }
 
-/// The module that defines what has this path from the root.
-fn home<'a>(modules: &Modules<'a>, path: &[&'a str]) -> Option<Vec<&'a str>> {
-    let length = (0..=path.len()).rev().find(|&length| modules.contains_key(&path[..length]))?;
-    let (module, rest) = path.split_at(length);
+/// How many segments of a path from the root are those of a file.
+fn file(modules: &Modules, path: &[String]) -> usize {
+    (0..=path.len()).rev().find(|&length| modules.contains_key(&path[..length])).unwrap_or_default()
+}
+
+/// The module that defines what has this path from the root; none if that is a module itself, or of another crate.
+fn home(modules: &Modules, path: &[String]) -> Option<Path> {
+    let (module, rest) = path.split_at(file(modules, path));
     let (name, rest) = rest.split_first()?;
-    match modules[module].imports.iter().find(|import| import.name == *name) {
+    let names = modules.get(module)?;
+    match names.imports.iter().find(|import| import.name == *name) {
         Some(import) => {
-            let passed = [absolute(modules, module, &import.path)?, rest.to_vec()].concat();
+            let passed = [&absolute(modules, module, &import.path)?, rest].concat();
             if passed == path { Some(module.to_vec()) } else { home(modules, &passed) }
         }
-        // That module is the file of another crate.
-        None if modules[module].modules.contains(name) => None,
-        None => Some(module.to_vec()),
+        None => Some(module.to_vec()).filter(|_| !names.modules.contains(name)),
     }
 }
 
-/// The paths that `path` stands for: of all that a prelude passes on, those that are used.
-fn passed<'a>(
-    modules: &Modules<'a>,
-    module: &[&'a str],
-    names: &Names<'a>,
-    path: &[&'a str],
-) -> Vec<Vec<&'a str>> {
-    let Some((&"*", prelude)) = path.split_last() else { return vec![path.to_vec()] };
-    let prelude = absolute(modules, module, prelude).unwrap_or_default();
-    let length = (0..=prelude.len()).rev().find(|&length| modules.contains_key(&prelude[..length]));
-    let file = &prelude[..length.unwrap_or_default()];
+/// The paths that `path` stands for in a module: of all that a prelude passes on, those that are used.
+fn passed(modules: &Modules, module: &[String], path: &[String]) -> Vec<Path> {
+    let Some(prelude) = path.split_last().filter(|(last, _)| *last == "*") else {
+        return vec![path.to_vec()];
+    };
+    let prelude = absolute(modules, module, prelude.1).unwrap_or_default();
+    let file = &prelude[..file(modules, &prelude)];
     let imports = modules.get(file).map_or(&[][..], |names| &names.imports);
-    let used = imports.iter().filter(|import| import.is_public && names.words.contains(import.name));
-    used.map(|import| [&["crate"], file, &[import.name]].concat()).collect()
+    let used =
+        imports.iter().filter(|import| import.is_public && modules[module].words.contains(&import.name));
+    used.map(|import| [&["crate".to_owned()], file, slice::from_ref(&import.name)].concat()).collect()
 }
 
 /// The arrows between files of a crate that are part of a circle.
 fn circles(files: &[(String, String)]) -> Vec<String> {
-    let files: Vec<_> = files.iter().map(|(file, text)| (file, code(text))).collect();
-    let modules: Modules<'_> = files
-        .iter()
-        .map(|(file, text)| {
-            let path = file.strip_suffix(".rs").unwrap_or(file).split('/');
-            (path.filter(|&name| !["lib", "main"].contains(&name)).collect(), names(text))
-        })
-        .collect();
-    let mut arrows: BTreeSet<(Vec<&str>, Vec<&str>, &str)> = BTreeSet::new();
+    let module = |file: &str| -> Path {
+        let path = file.strip_suffix(".rs").unwrap_or(file).split('/');
+        path.filter(|&name| !["lib", "main"].contains(&name)).map(str::to_owned).collect()
+    };
+    let modules: Modules = files.iter().map(|(file, text)| (module(file), names(text))).collect();
+    let mut arrows: BTreeSet<(Path, Path, String)> = BTreeSet::new();
     for (module, names) in &modules {
-        let used = |import: &&Import<'_>| !import.is_public || names.words.contains(import.name);
+        let used = |import: &&Import| !import.is_public || names.words.contains(&import.name);
         let paths = names.imports.iter().filter(used).map(|import| &import.path).chain(&names.paths);
-        for path in paths.flat_map(|path| passed(&modules, module, names, path)) {
+        for path in paths.flat_map(|path| passed(&modules, module, path)) {
             let home = absolute(&modules, module, &path).and_then(|path| home(&modules, &path));
-            let arrow = |home| (module.clone(), home, path[path.len() - 1]);
+            let arrow = |home| (module.clone(), home, path[path.len() - 1].clone());
             arrows.extend(home.filter(|home| home != module).map(arrow));
         }
     }
-    let mut needs: BTreeMap<&[&str], BTreeSet<&[&str]>> = BTreeMap::new();
+    let mut needs: BTreeMap<&Path, BTreeSet<&Path>> = BTreeMap::new();
     for (from, to, _) in &arrows {
         needs.entry(from).or_default().insert(to);
     }
-    let leads_back = |from: &[&str], to: &[&str]| {
-        let (mut reached, mut left) = (BTreeSet::from([to.to_vec()]), vec![to.to_vec()]);
+    let leads_back = |from: &Path, to: &Path| {
+        let (mut reached, mut left) = (BTreeSet::from([to]), vec![to]);
         while let Some(next) = left.pop() {
-            let needed = needs.get(&next[..]).into_iter().flatten().map(|file| file.to_vec());
-            left.extend(needed.filter(|file| reached.insert(file.clone())));
+            left.extend(needs.get(next).into_iter().flatten().filter(|&&file| reached.insert(file)));
         }
         reached.contains(from)
     };
@@ -315,6 +288,14 @@ fn a_circle_is_found_however_it_is_written() {
     let parent = ("a.rs", "mod b;\npub use b::Y;\nstruct X(Y);");
     assert_eq!(found(&[parent, ("a/b.rs", "use super::X;")]), ["a needs Y of a::b", "a::b needs X of a"]);
     assert_eq!(found(&[("a.rs", "mod b;\npub use b::Y;\nstruct X;"), ("a/b.rs", "use super::X;")]), [""; 0]);
+    assert_eq!(
+        found(&[
+            ("lib.rs", "mod prelude { pub use crate::a::X; }"),
+            ("a.rs", "enum X { Y }\nmod c { use super::super::b::Y; }"),
+            ("b.rs", "use crate::prelude::*;\nstruct Y(X);"),
+        ]),
+        ["a needs Y of b", "b needs X of a"]
+    );
     let tested = "use crate::b::Y;\n\n#[cfg(test)]\nmod tests {\n    use crate::c::Z;\n}\n";
     assert_eq!(found(&[("a.rs", tested), ("b.rs", "use std::fmt;"), ("c.rs", "use crate::a::X;")]), [""; 0]);
     assert_eq!(found(&[("a.rs", "use crate::b::Y;"), ("b.rs", "// crate::a::X")]), [""; 0]);
