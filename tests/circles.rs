@@ -1,11 +1,11 @@
 //! No file needs a file that needs it, directly or over others: within a crate, uses form no circle. A file needs the
-//! one that defines what it names; one that passes a name on and does not use it needs nobody.
+//! one that defines what it names; one that passes a name on and does not use it needs nobody. Tests within a file may name
+//! whatever they test.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::slice;
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
-
+use crate::names::{Import, Names, Path};
 use crate::tidy::sources;
 
 /// The crates, by their folders.
@@ -30,144 +30,8 @@ const CRATES: [&str; 18] = [
     "web",
 ];
 
-/// The segments of a path.
-type Path = Vec<String>;
-
-/// A name as it is imported: its path, how it is called here, and whether it is passed on.
-struct Import {
-    path: Path,
-    name: String,
-    is_public: bool,
-}
-
-/// The names in a file.
-#[derive(Default)]
-struct Names {
-    imports: Vec<Import>,
-    /// The paths of two segments and more behind the imports.
-    paths: Vec<Path>,
-    /// The words behind the imports.
-    words: BTreeSet<String>,
-    /// The modules that it declares.
-    modules: BTreeSet<String>,
-}
-
 /// The files of a crate, by their modules.
 type Modules = BTreeMap<Path, Names>;
-
-fn word(token: Option<&TokenTree>) -> Option<String> {
-    token.filter(|token| matches!(token, TokenTree::Ident(_))).map(TokenTree::to_string)
-}
-
-fn is(token: Option<&TokenTree>, sign: char) -> bool {
-    matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == sign)
-}
-
-/// The tokens of a group.
-fn inside(token: Option<&TokenTree>) -> Option<Vec<TokenTree>> {
-    let Some(TokenTree::Group(group)) = token else { return None };
-    Some(group.stream().into_iter().collect())
-}
-
-/// The paths in the tree of a `use`, below `above`, and how their ends are called here.
-fn leaves(tree: &[TokenTree], above: &[String]) -> Vec<(Path, String)> {
-    let branches = tree.split(|token| is(Some(token), ',')).filter(|branch| !branch.is_empty());
-    let paths = branches.flat_map(|branch| {
-        let mut path = above.to_vec();
-        let (named, other) = match branch {
-            [named @ .., TokenTree::Ident(renamed), other] if renamed == "as" => (named, word(Some(other))),
-            _ => (branch, None),
-        };
-        path.extend(named.iter().filter_map(|token| word(Some(token))));
-        if let Some(tree) = inside(branch.last()) {
-            return leaves(&tree, &path);
-        }
-        path.extend(Some("*".to_owned()).filter(|_| is(branch.last(), '*')));
-        let _ = path.pop_if(|last| last == "self" && branch.len() == 1 && !above.is_empty());
-        let name = other.or_else(|| path.last().cloned()).unwrap_or_default();
-        vec![(path, name)]
-    });
-    paths.collect()
-}
-
-/// A path that stands so many modules within its file, as the file itself would write it.
-fn outward(path: Path, within: usize) -> Path {
-    let supers = path.iter().take_while(|&segment| segment == "super").count();
-    match supers.min(within) {
-        0 => path,
-        inner if inner < supers => path[inner..].to_vec(),
-        inner => [&["self".to_owned()], &path[inner..]].concat(),
-    }
-}
-
-/// Reads what stands so many modules within a file, in braces or not. Tests may name whatever they test.
-fn read(tokens: &[TokenTree], (within, is_braced): (usize, bool), names: &mut Names) {
-    let mut place = 0;
-    while let Some(token) = tokens.get(place) {
-        let token = Some(token);
-        let before = place.checked_sub(1).and_then(|place| tokens.get(place));
-        let next = tokens.get(place + 1);
-        let (this, ahead) = (word(token), word(next));
-        place += 1;
-        match (this.as_deref(), ahead) {
-            (Some("use"), _) if !is(next, '<') => {
-                let end = tokens[place..].iter().position(|token| is(Some(token), ';'));
-                let end = end.map_or(tokens.len(), |end| place + end);
-                let is_public = match before {
-                    // As in `pub(crate) use`.
-                    Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Parenthesis,
-                    before => word(before).is_some_and(|before| before == "pub"),
-                };
-                let imports = leaves(&tokens[place..end], &[]).into_iter();
-                names.imports.extend(imports.map(|(path, name)| Import {
-                    path: outward(path, within),
-                    name,
-                    is_public,
-                }));
-                place = end;
-            }
-            (Some("mod"), Some(module)) => {
-                let is_test =
-                    before.is_some_and(|attribute| attribute.to_string().replace(' ', "") == "[cfg(test)]");
-                if let Some(inner) = inside(tokens.get(place + 1)).filter(|_| !is_test) {
-                    read(&inner, (within + 1, true), names);
-                }
-                names.modules.insert(module);
-                place += 2;
-            }
-            (Some(first), _) => {
-                let mut path = vec![first.to_owned()];
-                while is(tokens.get(place), ':')
-                    && is(tokens.get(place + 1), ':')
-                    && let Some(segment) = word(tokens.get(place + 2))
-                {
-                    path.push(segment);
-                    place += 3;
-                }
-                // So stand variants and fields in a list, which may be called as anything is.
-                let is_listed = is_braced
-                    && (before.is_none() || is(before, ',') || inside(before).is_some())
-                    && (next.is_none() || is(next, ','));
-                if !is(before, '.') && !is_listed {
-                    names.words.insert(first.to_owned());
-                }
-                names.paths.extend(Some(outward(path, within)).filter(|path| path.len() > 1));
-            }
-            (None, _) => inside(token).into_iter().for_each(|inner| {
-                let is_braced =
-                    matches!(token, Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace);
-                read(&inner, (within, is_braced), names);
-            }),
-        }
-    }
-}
-
-fn names(text: &str) -> Names {
-    let tokens: TokenStream = text.parse().expect("Rust");
-    let mut names = Names::default();
-    read(&tokens.into_iter().collect::<Vec<_>>(), (0, false), &mut names);
-    names
-}
 
 /// The path from the root of the crate, if a module means one of it by `path`.
 fn absolute(modules: &Modules, module: &[String], path: &[String]) -> Option<Path> {
@@ -227,7 +91,7 @@ fn circles(files: &[(String, String)]) -> Vec<String> {
         let path = file.strip_suffix(".rs").unwrap_or(file).split('/');
         path.filter(|&name| !["lib", "main"].contains(&name)).map(str::to_owned).collect()
     };
-    let modules: Modules = files.iter().map(|(file, text)| (module(file), names(text))).collect();
+    let modules: Modules = files.iter().map(|(file, text)| (module(file), Names::of(text, false))).collect();
     let mut arrows: BTreeSet<(Path, Path, String)> = BTreeSet::new();
     for (module, names) in &modules {
         let used = |import: &&Import| !import.is_public || names.words.contains(&import.name);

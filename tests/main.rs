@@ -13,6 +13,7 @@ mod judge;
 mod layouts;
 mod mcap;
 mod mcp;
+mod names;
 mod page;
 mod proved;
 mod python;

@@ -4,7 +4,9 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{self, PathBuf};
+
+use crate::names::{Names, Path};
 
 /// By crate: the crates of ours that it may use. The program stands in the folder of the workspace.
 const BELOW: &str = "
@@ -101,39 +103,23 @@ fn room(file: &str) -> &str {
     file.split(['/', '.']).next().unwrap_or(file)
 }
 
-/// The rooms that a file names by a path from the root of its crate, and the crates of ours that it names. The text is
-/// laid out by rustfmt: a module within a file ends at a brace that stands as far in as its first line.
+/// The rooms that a file names by a path from the root of its crate, and the crates of ours that it names, also in its
+/// tests.
 fn imports(file: &str, text: &str) -> BTreeSet<String> {
-    let name = |text: &str| -> String {
-        text.chars().take_while(|&sign| sign.is_alphanumeric() || matches!(sign, '_' | '*')).collect()
+    let depth = file.split('/').count();
+    let Names { imports, paths, .. } = Names::of(text, true);
+    let paths = imports.into_iter().map(|import| import.path).chain(paths);
+    let named = |path: Path| {
+        let supers = path.iter().take_while(|&segment| segment == "super").count();
+        let place = match path[0].as_str() {
+            first if first.starts_with("tautline_") => 0,
+            "crate" => 1,
+            _ if supers == depth => depth,
+            _ => return None,
+        };
+        path.into_iter().nth(place)
     };
-    let (mut code, mut inner) = (String::new(), Vec::new());
-    for line in text.lines() {
-        let line = line.split("//").next().unwrap_or(line);
-        let indent = line.len() - line.trim_start().len();
-        if line.trim() == "}" && inner.last() == Some(&indent) {
-            inner.pop();
-        }
-        code += &line.replace(&"super::".repeat(file.split('/').count() + inner.len()), "crate::");
-        if line.ends_with('{') && line.split_whitespace().any(|word| word == "mod") {
-            inner.push(indent);
-        }
-    }
-    code.retain(|sign| !sign.is_whitespace());
-    let mut found: BTreeSet<String> =
-        code.match_indices("tautline_").map(|(start, _)| name(&code[start..])).collect();
-    for (start, root) in code.match_indices("crate::") {
-        let rest = &code[start + root.len()..];
-        let mut groups = 0;
-        for piece in rest.strip_prefix('{').unwrap_or(rest).split_inclusive(['{', ',', '}']) {
-            found.extend(Some(name(piece)).filter(|name| groups == 0 && !name.is_empty()));
-            groups += i32::from(piece.ends_with('{')) - i32::from(piece.ends_with('}'));
-            if groups < 0 || !rest.starts_with('{') {
-                break;
-            }
-        }
-    }
-    found
+    paths.filter_map(named).collect()
 }
 
 /// The forbidden imports of a file of the crate `part`.
@@ -159,7 +145,7 @@ fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
 }
 
 fn path(folder: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
+    path::Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
 }
 
 /// The Rust files under a folder, by their path within it, and what they say.
