@@ -152,14 +152,28 @@ impl Paper {
         asked.iter().filter_map(|names| self.reading(names).ok()).collect()
     }
 
+    /// The interpretations that the reading of this name takes.
+    fn taken(&self, reading: &str) -> impl Iterator<Item = &'static Interpretation> {
+        self.ambiguities.iter().filter_map(move |ambiguity| {
+            let named = reading.split(AND).find_map(|name| ambiguity.find(name));
+            named.or(ambiguity.interpretations.first())
+        })
+    }
+
+    /// The interpretation that `some` of these readings take and none of the `others`, if there is one.
+    pub fn dividing(&self, some: &[&str], others: &[&str]) -> Option<&'static Interpretation> {
+        let takes = |reading: &str, one: &Interpretation| self.taken(reading).any(|taken| *taken == *one);
+        let divides = |&one: &&Interpretation| {
+            some.iter().all(|reading| takes(reading, one))
+                && !others.iter().any(|reading| takes(reading, one))
+        };
+        self.ambiguities.iter().flat_map(|ambiguity| ambiguity.interpretations).find(divides)
+    }
+
     /// How charitable the reading of this name is, the more the greater: at how many ambiguities it takes a charitable
     /// interpretation, and at how many a probable one.
     pub fn charity(&self, reading: &str) -> (usize, usize) {
-        let charity = |ambiguity: &Ambiguity| {
-            let named = reading.split(AND).find_map(|name| ambiguity.find(name));
-            named.or(ambiguity.interpretations.first()).map(|one| one.charity)
-        };
-        let count = |wanted| self.ambiguities.iter().filter(|one| charity(one) == Some(wanted)).count();
+        let count = |wanted| self.taken(reading).filter(|one| one.charity == wanted).count();
         (count(Charity::Charitable), count(Charity::Probable))
     }
 }
@@ -195,6 +209,10 @@ mod tests {
         assert_eq!(PAPER.reading(&["answered", "window"]).as_deref(), Ok("window + answered"));
         assert_eq!(PAPER.charity("published"), (0, 0));
         assert!(PAPER.charity("window") < PAPER.charity("window + answered"));
+        let dividing = |some: &[&str], others: &[&str]| PAPER.dividing(some, others).map(|one| one.name);
+        assert_eq!(dividing(&["published"], &["window", "window + answered"]), Some("anew"));
+        assert_eq!(dividing(&["window", "window + answered"], &["published"]), Some("window"));
+        assert_eq!(dividing(&["published", "window + answered"], &["window"]), None);
     }
 
     #[test]

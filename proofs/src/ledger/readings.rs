@@ -8,6 +8,9 @@ use super::Row;
 use crate::clause::Variant;
 use crate::decide::{Evidence, Verdict};
 
+/// Readings that are named whatever comes out under them.
+const FEW: usize = 4;
+
 /// A reading, and the verdict under it.
 type ReadingVerdict = (&'static str, Verdict);
 
@@ -28,34 +31,54 @@ impl Row {
         [(self.check.rule(), self.decision.verdict)].into_iter().chain(self.others().zip(verdicts))
     }
 
-    /// Under which readings of the rule it is refuted, and under which it is not; `None` if there is one alone.
+    /// Under which readings of the rule it is refuted, and under which it is not; `None` if there is one alone. Of more
+    /// than a few those of the most frequent verdict are not named, and no others that one interpretation sets apart.
     pub(super) fn readings(&self) -> Option<String> {
-        let of = self.read().count();
-        let most = self.most_charitable();
-        let named = |name: &'static str| match most {
-            Some((most, evidence)) if most == name => {
+        let all: Vec<ReadingVerdict> = self.read().collect();
+        let of = all.len();
+        let with = |is: &dyn Fn(Verdict) -> bool| -> Vec<&'static str> {
+            all.iter().filter(|one| is(one.1)).map(|one| one.0).collect()
+        };
+        let kinds = [Verdict::Refuted, Verdict::Holds, Verdict::Unrefuted, Verdict::Open];
+        let most = kinds.into_iter().max_by_key(|&verdict| with(&|one| one == verdict).len());
+        let groups = kinds.map(|verdict| {
+            let (names, others) = (with(&|one| one == verdict), with(&|one| one != verdict));
+            let dividing = self.check.paper().and_then(|paper| paper.dividing(&names, &others));
+            let short = match dividing {
+                _ if of <= FEW => None,
+                _ if Some(verdict) == most => Some("the others".to_owned()),
+                Some(one) => Some(format!("those with {}", one.name)),
+                None => None,
+            };
+            (verdict, names, short)
+        });
+        let [(_, refuted, short), others @ ..] = &groups;
+        let charitable = self.most_charitable();
+        let named = |name: &&'static str| match charitable {
+            Some((most, evidence)) if most == *name => {
                 format!("{name} (the most charitable, {})", evidence.size())
             }
-            Some(_) | None => name.to_owned(),
+            Some(_) | None => (*name).to_owned(),
         };
-        let names = |verdict: Verdict| {
-            let found: Vec<String> =
-                self.read().filter(|one| one.1 == verdict).map(|one| named(one.0)).collect();
-            (found.len(), found.join(", "))
-        };
-        let (refuted, which) = names(Verdict::Refuted);
-        let mut words = match refuted {
+        let count = match refuted.len() {
             0 => "refuted under no reading".to_owned(),
-            1 => format!("refuted under one of {of} readings: {which}"),
-            _ if refuted == of => format!("refuted under all {of} readings: {which}"),
-            _ => format!("refuted under {refuted} of {of} readings: {which}"),
+            1 => format!("refuted under one of {of} readings"),
+            all if all == of => format!("refuted under all {of} readings"),
+            some => format!("refuted under {some} of {of} readings"),
         };
-        for verdict in [Verdict::Holds, Verdict::Unrefuted, Verdict::Open] {
-            if let (1.., which) = names(verdict) {
-                // Writing to a string cannot fail.
-                let _ = write!(words, "; {} under {which}", verdict.word());
+        let head = match (short, charitable) {
+            _ if refuted.is_empty() => count,
+            (Some(short), Some((name, evidence))) => {
+                let which = if Some(Verdict::Refuted) == most { "" } else { &format!(", {short}") };
+                format!("{count}{which}, the most charitable {name} ({})", evidence.size())
             }
-        }
+            _ => format!("{count}: {}", refuted.iter().map(named).collect::<Vec<_>>().join(", ")),
+        };
+        let others =
+            others.iter().filter(|(_, names, _)| !names.is_empty()).map(|(verdict, names, short)| {
+                format!("{} under {}", verdict.word(), short.clone().unwrap_or_else(|| names.join(", ")))
+            });
+        let words = [head].into_iter().chain(others).collect::<Vec<_>>().join("; ");
         (of > 1).then_some(words)
     }
 
@@ -96,7 +119,8 @@ impl Row {
                 holding.truncate(1);
                 "holds as published, too".to_owned()
             }
-            others => format!("holds as published under {}", others.join(", ")),
+            others if others.len() <= FEW => format!("holds as published under {}", others.join(", ")),
+            others => format!("holds as published under {} readings", others.len()),
         };
         if !stands(self.decision.verdict) {
             return Some(words + "; our repair does not");
