@@ -153,7 +153,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 
     /// The sight of `robot` at a side of its node.
-    fn see(
+    pub(in crate::kit) fn see(
         &self,
         world: &mut World<ROBOTS>,
         (robot, node, side): (usize, Cell, Side),

@@ -142,7 +142,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 
     /// The demands that are looked at and broken by staying in `world`.
-    pub(super) fn broken_by_staying(&self, world: &World<ROBOTS>) -> Vec<Demand> {
+    pub(in crate::kit) fn broken_by_staying(&self, world: &World<ROBOTS>) -> Vec<Demand> {
         let is_over = world.team.is_over();
         let mut breaks = Vec::new();
         if self.is_wanted(Demand::Moves) && !is_over && self.is_owed(world) {
