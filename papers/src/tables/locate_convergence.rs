@@ -284,3 +284,22 @@ fn after(
         error_interval_m: error_interval_m.map(|ends| ends.map(|end| decimals(end, 1e4))),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the letter of the paper's steps, which count from 1 and end at the last, particles move two times less.
+    #[test]
+    fn with_two_moves_less_an_inertia_that_falls_just_misses_5_cm() {
+        let settings = Field { noise_db: 1.0, exponent: 2.0, trials: 10_000, seed: 0 };
+        let (anchors, signal) = field(&settings).unwrap_or_else(|_| panic!("a field"));
+        let optimum_mm = |(_, order, draws, parameters): (_, _, _, Parameters), iterations| {
+            let parameters = Parameters { order, draws, iterations, ..parameters };
+            let end = after(&settings, (&anchors, &signal), parameters).unwrap_or_else(|_| panic!("an end"));
+            (end.optimum_m * 1e3).round() as u32
+        };
+        assert_eq!(VARIANTS.map(|variant| optimum_mm(variant, 20)), [41, 61, 46, 3, 5, 3]);
+        assert_eq!(VARIANTS.map(|variant| optimum_mm(variant, 18)), [45, 64, 51, 4, 6, 4]);
+    }
+}
