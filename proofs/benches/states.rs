@@ -17,7 +17,7 @@ use tautline_kernel::mrc::Rule;
 use tautline_proofs::engine::states::{Bits, Findings, Limits, MOST_AT_ONCE, System, pieces, search};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::mrc::space::{self, Until};
-use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Service, Setting};
+use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, RobotReading, Setting};
 
 use self::model::Rescue;
 
@@ -148,7 +148,7 @@ const SETTING: Setting = Setting {
     faults: Faults::any(1),
     lossy: LossKind::All,
     leases: Leases::UntilCalled,
-    served: Service::ByAny,
+    reading: RobotReading::PUBLISHED,
 };
 
 /// The count that `run` returns, and the seconds of the faster of two runs.

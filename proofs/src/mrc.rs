@@ -2,6 +2,7 @@
 
 pub mod chart;
 pub mod clauses;
+mod reading;
 mod records;
 pub mod space;
 mod state;
@@ -9,6 +10,7 @@ mod within;
 
 use tautline_kernel::mrc::Rule;
 
+pub use reading::{Records, RobotReading, Service, Start};
 pub use state::{Action, Actor, Demand, Faults, Leases, LossKind, Message, ROBOTS, Setting, State, WFRS};
 
 /// How a message is misread where it arrives, as a mutant does.
@@ -28,15 +30,6 @@ pub enum Misreading {
     Answers,
 }
 
-/// Whose service the SBit of a call stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Service {
-    /// Any robot's: step 5 sets it when the robot hears whom the WFR has chosen.
-    ByAny,
-    /// The robot's own.
-    ByItself,
-}
-
 /// Robots and WFRs that are observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Subject {
@@ -44,14 +37,14 @@ pub struct Subject {
     pub rule: Rule,
     /// How they misread what they hear.
     pub misread: Option<Misreading>,
-    /// How robots understand the SBit.
-    pub served: Service,
+    /// How robots read the paper.
+    pub reading: RobotReading,
 }
 
 impl Subject {
     /// Robots and WFRs that follow `rule`.
     pub const fn rescuing(rule: Rule) -> Self {
-        Self { rule, misread: None, served: Service::ByAny }
+        Self { rule, misread: None, reading: RobotReading::PUBLISHED }
     }
 
     /// The repaired rule, misreading.

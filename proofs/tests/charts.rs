@@ -6,7 +6,7 @@ use tautline_kernel::mrc::{Condition, Rule};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::mrc::chart::chart;
 use tautline_proofs::mrc::space::{Until, search};
-use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Service, Setting};
+use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, RobotReading, Setting};
 
 const NO_FAULT: Faults = Faults::any(0);
 
@@ -14,7 +14,7 @@ const NO_FAULT: Faults = Faults::any(0);
 const LEAST: Setting = Setting {
     rule: Rule::PUBLISHED,
     misread: None,
-    served: Service::ByAny,
+    reading: RobotReading::PUBLISHED,
     robots: 1,
     wfrs: 1,
     events: 1,

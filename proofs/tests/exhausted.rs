@@ -12,7 +12,7 @@ use tautline_proofs::engine::model::StatesModel;
 use tautline_proofs::engine::states::{self, AnySystem, Limits, NoCertificate, System};
 use tautline_proofs::ledger::{Misfit, certificate, clauses, examine};
 use tautline_proofs::mrc::space::{Space, Until};
-use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Service, Setting};
+use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, RobotReading, Setting};
 
 /// Holds a verdict against the certificates of what `method` searches for `rule`: if it holds there is one of each
 /// system, which is accepted, and if it is refuted there is none of some.
@@ -195,7 +195,7 @@ fn a_state_left_out_a_wrong_rank_and_a_wrong_start_are_refused_by_what_they_are(
 const PUBLISHED: Setting = Setting {
     rule: Rule::PUBLISHED,
     misread: None,
-    served: Service::ByAny,
+    reading: RobotReading::PUBLISHED,
     robots: 2,
     wfrs: 1,
     events: 2,

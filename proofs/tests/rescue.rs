@@ -14,9 +14,11 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Condition, Phase, Rule, Task};
 use tautline_proofs::engine::states::{Limits, System};
 use tautline_proofs::engine::{Outcome, require, sample};
+use tautline_proofs::mrc::Records::{ByPacket, ByWfr};
+use tautline_proofs::mrc::Start::{AtOnce, Later};
 use tautline_proofs::mrc::space::{Findings, Space, Until, search};
 use tautline_proofs::mrc::{
-    Action, Actor, Demand, Faults, Leases, LossKind, Misreading, Service, Setting, State,
+    Action, Actor, Demand, Faults, Leases, LossKind, Misreading, RobotReading, Setting, State,
 };
 
 use self::model::Rescue;
@@ -25,7 +27,7 @@ const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faul
     Setting {
         rule: Rule::REPAIRED,
         misread: None,
-        served: Service::ByAny,
+        reading: RobotReading::PUBLISHED,
         robots,
         wfrs,
         events,
@@ -170,8 +172,13 @@ fn stateright_breaks_the_published_rule_in_as_few_steps() {
 
 /// The demands that break where nothing is lost, doubled or late, nobody fails and each WFR calls once, as if each
 /// event had a RID of its own. A robot asks no WFR any more whose RESB it has heard, so no run goes round.
-fn broken_over_reliable_links(rule: Rule, (robots, wfrs): (usize, usize), max_hops: u16) -> Vec<Demand> {
-    let setting = Setting { rule, ..setting((robots, wfrs), wfrs as u8, max_hops, Faults::any(0)) };
+fn broken_over_reliable_links(
+    (rule, reading): (Rule, RobotReading),
+    (robots, wfrs): (usize, usize),
+    max_hops: u16,
+) -> Vec<Demand> {
+    let reliable = setting((robots, wfrs), wfrs as u8, max_hops, Faults::any(0));
+    let setting = Setting { rule, reading, ..reliable };
     let (mut ahead, mut known, mut broken) = (setting.starts(), HashSet::new(), BTreeSet::new());
     while let Some(state) = ahead.pop() {
         if !known.insert(state.clone()) {
@@ -197,14 +204,26 @@ fn over_reliable_links_and_with_a_new_rid_for_each_event_a_window_with_answers_b
     use Demand::*;
     let window = Rule::PUBLISHED.with(Condition::ChoiceStands).with(Condition::Window);
     let answered = window.with(Condition::AnswersAgain);
+    let published = |rule: Rule| (rule, RobotReading::PUBLISHED);
     for (robots_wfrs, max_hops) in [((2, 2), 2), ((2, 3), 1), ((3, 2), 1)] {
-        assert_eq!(broken_over_reliable_links(answered, robots_wfrs, max_hops), [CountsOnConsent]);
+        assert_eq!(broken_over_reliable_links(published(answered), robots_wfrs, max_hops), [CountsOnConsent]);
     }
-    assert_eq!(broken_over_reliable_links(window, (2, 2), 2), [CountsOnConsent, TellsWhoAsked]);
-    assert_eq!(broken_over_reliable_links(window, (2, 3), 1), [CountsOnConsent, IsServed, TellsWhoAsked]);
+    assert_eq!(broken_over_reliable_links(published(window), (2, 2), 2), [CountsOnConsent, TellsWhoAsked]);
+    assert_eq!(
+        broken_over_reliable_links(published(window), (2, 3), 1),
+        [CountsOnConsent, IsServed, TellsWhoAsked]
+    );
     let anew =
         [OneRobotForACall, BestOfTheWindow, CountsOnConsent, IsServed, TakesWhatItAsksFor, TellsWhoAsked];
-    assert_eq!(broken_over_reliable_links(Rule::PUBLISHED, (2, 2), 2), anew);
+    assert_eq!(broken_over_reliable_links(published(Rule::PUBLISHED), (2, 2), 2), anew);
+    // Where a robot asks later, or each packet makes a record, of which there is one for each call here.
+    for (records, start) in [(ByPacket, AtOnce), (ByWfr, Later), (ByPacket, Later)] {
+        let reading = RobotReading { records, start, ..RobotReading::PUBLISHED };
+        for (robots_wfrs, max_hops) in [((2, 2), 2), ((2, 3), 1), ((3, 2), 1)] {
+            let broken = broken_over_reliable_links((answered, reading), robots_wfrs, max_hops);
+            assert_eq!(broken, [CountsOnConsent], "{reading:?}");
+        }
+    }
 }
 
 #[test]
@@ -330,7 +349,8 @@ fn rescue(rule: Rule, oracle: &mut dyn Oracle) -> Outcome {
         }
         let may_happen = |&action: &Action| match action {
             Action::Raise(wfr) => !called[wfr],
-            Action::Deliver(_)
+            Action::Begin(_)
+            | Action::Deliver(_)
             | Action::Expire(_)
             | Action::Arrive(_)
             | Action::Lapse(_)

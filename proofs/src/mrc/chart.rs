@@ -65,6 +65,7 @@ pub fn happens(setting: &Setting, before: &State, action: Action, after: &State)
             let early = if before.is_bound_to_happen(setting, action) { "" } else { " early" };
             format!("{}: {}{early}", name(actor), timer(before, actor))
         }
+        Action::Begin(robot) => format!("{} asks now", name(Actor::Robot(robot))),
         Action::Arrive(robot) => format!("{} comes", name(Actor::Robot(robot))),
         Action::Lapse(robot) => format!("the lease of {} lapses", name(Actor::Robot(robot))),
         Action::FailRobot(robot) => format!("{} fails", name(Actor::Robot(robot))),
@@ -156,6 +157,7 @@ fn line(setting: &Setting, actors: &[Actor], before: &State, action: Action, aft
                 arrow(&mut row, (column(Actor::Robot(robot)), column(to)), Reach::Arrives, "comes");
             }
         }
+        Action::Begin(robot) => mark(&mut row, column(Actor::Robot(robot)), '*', "asks now"),
         Action::Lapse(robot) => mark(&mut row, column(Actor::Robot(robot)), '*', "lease lapses"),
         Action::FailRobot(robot) => mark(&mut row, column(Actor::Robot(robot)), '✗', "fails"),
         Action::FailNode { robot, wfr } => {

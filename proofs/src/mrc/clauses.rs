@@ -6,12 +6,15 @@ use tautline_kernel::mrc::Condition::{
 };
 use tautline_kernel::mrc::{Condition, Rule};
 
+use super::Records::{self, ByPacket, ByWfr};
+use super::Service::{self, ByAny, ByItself};
+use super::Start::{self, AtOnce, Later};
 use super::within::Within;
-use super::{Demand, Faults, Leases, LossKind, Misreading, Service, Setting, Subject, records};
+use super::{Demand, Faults, Leases, LossKind, Misreading, RobotReading, Setting, Subject, records};
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
-use crate::decide::EveryAnswer;
+use crate::decide::{EveryAnswer, Verdict};
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::rescuing(Rule::PUBLISHED));
 const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::rescuing(Rule::REPAIRED));
@@ -76,19 +79,19 @@ const fn lacking(name: &'static str, condition: Condition) -> NamedRule<Subject>
     NamedRule::new(name, Subject::rescuing(Rule::REPAIRED.without(condition)))
 }
 
-/// The reading with these conditions, under which a choice stands.
-const fn chosen(conditions: &[Condition]) -> Subject {
+/// The published rule with these conditions, under which a choice stands.
+const fn chosen(conditions: &[Condition]) -> Rule {
     let mut rule = Rule::PUBLISHED.with(ChoiceStands);
     let mut left = conditions;
     while let [condition, rest @ ..] = left {
         rule = rule.with(*condition);
         left = rest;
     }
-    Subject::rescuing(rule)
+    rule
 }
 
 /// The readings of a WFR's choice: at each MOVE, at the first, or when a window closes; whether a MOVE that comes later
-/// is answered; and whose service the SBit stands for.
+/// is answered; and of a robot's part.
 static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {
@@ -119,41 +122,118 @@ static PAPER: Paper = Paper {
                 Interpretation::new("own", "the robot that is chosen sets it, and no other", Literal),
             ],
         },
+        Ambiguity {
+            words: "“On receiving a NOTICE packet, a mobile robot should add a new record”",
+            interpretations: &[
+                Interpretation::new("one record", "each WFR has one, with the least HC heard", Probable),
+                Interpretation::new("packet", "each packet makes one, whose SBit is clear", Literal),
+            ],
+        },
+        Ambiguity {
+            words: "“When a mobile robot starts to serve, it first chooses from T_REQ the record with the minimum HC”",
+            interpretations: &[
+                Interpretation::new(
+                    "at once",
+                    "a free robot asks at the first NOTICE that it hears",
+                    Literal,
+                ),
+                Interpretation::new("later", "it asks when it has collected some", Probable),
+            ],
+        },
     ],
     excluded: &[("anew", "answered")],
     repairs: &["repaired"],
 };
 
-/// The reading whose robots take the SBit for their own service.
-const fn own(subject: Subject) -> Subject {
-    Subject { served: Service::ByItself, ..subject }
+/// The rule by each reading of a robot's part, under the name of the reading of the WFR's: the name alone, and before
+/// what is added to it.
+macro_rules! by_robots {
+    ($alone:expr, $before:literal, $rule:expr) => {
+        [
+            ($alone, read($rule, ByAny, ByWfr, AtOnce)),
+            (concat!($before, "later"), read($rule, ByAny, ByWfr, Later)),
+            (concat!($before, "packet"), read($rule, ByAny, ByPacket, AtOnce)),
+            (concat!($before, "packet + later"), read($rule, ByAny, ByPacket, Later)),
+            (concat!($before, "own"), read($rule, ByItself, ByWfr, AtOnce)),
+            (concat!($before, "own + later"), read($rule, ByItself, ByWfr, Later)),
+            (concat!($before, "own + packet"), read($rule, ByItself, ByPacket, AtOnce)),
+            (concat!($before, "own + packet + later"), read($rule, ByItself, ByPacket, Later)),
+        ]
+    };
 }
 
-/// The readings of a WFR's choice and of late MOVEs.
-const CHOICES: [(&str, Subject); 4] = [
-    ("first", chosen(&[])),
-    ("first + answered", chosen(&[AnswersAgain])),
-    ("window", chosen(&[Window])),
-    ("window + answered", chosen(&[Window, AnswersAgain])),
+const fn read(rule: Rule, served: Service, records: Records, start: Start) -> Subject {
+    Subject { reading: RobotReading { served, records, start }, ..Subject::rescuing(rule) }
+}
+
+/// The readings of a WFR's choice and of late MOVEs, each by all of a robot's part, *published* first.
+const CHOICES: [[(&str, Subject); 8]; 5] = [
+    by_robots!(PUBLISHED.name, "", Rule::PUBLISHED),
+    by_robots!("first", "first + ", chosen(&[])),
+    by_robots!("first + answered", "first + answered + ", chosen(&[AnswersAgain])),
+    by_robots!("window", "window + ", chosen(&[Window])),
+    by_robots!("window + answered", "window + answered + ", chosen(&[Window, AnswersAgain])),
 ];
 
-const READINGS: [(&str, Subject); 9] = [
-    ("own", own(PUBLISHED.rule)),
-    CHOICES[0],
-    ("first + own", own(CHOICES[0].1)),
-    CHOICES[1],
-    ("first + answered + own", own(CHOICES[1].1)),
-    CHOICES[2],
-    ("window + own", own(CHOICES[2].1)),
-    CHOICES[3],
-    ("window + answered + own", own(CHOICES[3].1)),
-];
+/// All readings but *published*.
+const READINGS: [(&str, Subject); 39] = {
+    let mut readings = [CHOICES[0][0]; 39];
+    let mut number = 0;
+    while number < 39 {
+        readings[number] = CHOICES[(number + 1) / 8][(number + 1) % 8];
+        number += 1;
+    }
+    readings
+};
+
+/// The readings, of which those hold that are so.
+macro_rules! holding_where {
+    ($is_so:expr) => {{
+        const READ: [Reading<Subject>; 39] = {
+            let mut readings = holding(READINGS, []);
+            let mut number = 0;
+            while number < 39 {
+                if $is_so(&READINGS[number].1) {
+                    readings[number].expected = Verdict::Holds;
+                }
+                number += 1;
+            }
+            readings
+        };
+        &READ
+    }};
+}
+
 const REFUTED: &[Reading<Subject>] = &holding(READINGS, []);
-const HOLDS_IF_IT_STANDS: &[Reading<Subject>] = &holding(READINGS, [1, 2, 3, 4, 5, 6, 7, 8]);
-const HOLDS_IN_A_WINDOW: &[Reading<Subject>] = &holding(READINGS, [5, 6, 7, 8]);
+/// The readings of the WFR's part, robots as published.
+const REFUTED_BY_CHOICE: &[Reading<Subject>] =
+    &holding([CHOICES[1][0], CHOICES[2][0], CHOICES[3][0], CHOICES[4][0]], []);
 
-/// A WFR that is asked again by the robot that it has not chosen may have called anew since, and answers for that call.
-const HOLDS_ANSWERED_IN_A_WINDOW: &[Reading<Subject>] = &holding(READINGS, [7]);
+const fn stands(observed: &Subject) -> bool {
+    observed.rule.has(ChoiceStands)
+}
+
+const fn has_packets(observed: &Subject) -> bool {
+    matches!(observed.reading.records, ByPacket)
+}
+
+/// A robot that comes back to a WFR whose packet it still has may be chosen by it as by another.
+const fn is_in_a_window_by_one_record(observed: &Subject) -> bool {
+    observed.rule.has(Window) && !has_packets(observed)
+}
+
+/// A robot that asks again or late may ask when the WFR has called anew, and is answered for that call.
+const fn is_answered_in_a_window(observed: &Subject) -> bool {
+    let RobotReading { served, records, start } = observed.reading;
+    observed.rule.has(Window)
+        && observed.rule.has(AnswersAgain)
+        && matches!((served, records, start), (ByAny, ByWfr, AtOnce))
+}
+
+/// One that is told that nobody is to come leaves a call whose SBit stays clear.
+const fn asks_until_told(observed: &Subject) -> bool {
+    !(observed.rule.has(AnswersAgain) && matches!(observed.reading.served, ByItself) && has_packets(observed))
+}
 
 const REDECIDE: NamedRule<Subject> = lacking("redecide on a late MOVE", ChoiceStands);
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
@@ -178,7 +258,7 @@ const ACCEPTS: NamedRule<Subject> =
 const TWO: Setting = Setting {
     rule: Rule::REPAIRED,
     misread: None,
-    served: Service::ByAny,
+    reading: RobotReading::PUBLISHED,
     robots: 2,
     wfrs: 2,
     events: 2,
@@ -205,7 +285,7 @@ pub const CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
         checks: &[
             &Check::refuted(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE))
-                .under(HOLDS_IF_IT_STANDS)
+                .under(holding_where!(stands))
                 .of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, TWO), &[REDECIDE]),
             &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, TWO_LONGER), &[REDECIDE]),
@@ -217,7 +297,7 @@ pub const CLAUSES: [Clause; 14] = [
         sentence: "Two WFRs MUST never count on the same robot.",
         checks: &[
             &Check::refuted(PUBLISHED, &Within(Demand::OneCallForARobot, ONE_AND_TWO))
-                .under(HOLDS_IN_A_WINDOW)
+                .under(holding_where!(is_in_a_window_by_one_record))
                 .of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO), &[NO_CONSENT]),
             &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), &[NO_CONSENT]),
@@ -270,7 +350,7 @@ pub const CLAUSES: [Clause; 14] = [
         sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
         checks: &[
             &Check::refuted(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE))
-                .under(&holding(CHOICES, []))
+                .under(REFUTED_BY_CHOICE)
                 .of(&PAPER),
             &Check::refuted(PUBLISHED, &Within(Demand::IsServed, ALONE)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO_AND_ONE), &[NO_RENEWAL, NO_EPOCH]),
@@ -288,7 +368,9 @@ pub const CLAUSES: [Clause; 14] = [
         id: "MRC-6",
         sentence: "A robot that hears a call under a new epoch MUST have its SBit clear.",
         checks: &[
-            &Check::refuted(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE)).under(REFUTED).of(&PAPER),
+            &Check::refuted(PUBLISHED, &Within(Demand::AsksAnew, ALONE))
+                .under(holding_where!(has_packets))
+                .of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::AsksAnew, TWO), &[NO_EPOCH]),
             &Check::holds(REPAIRED, &Within(Demand::AsksAnew, TWO_LONGER), &[NO_EPOCH]),
             &Check::holds(REPAIRED, &Within(Demand::AsksAnew, THREE_AND_TWO), &[NO_EPOCH]),
@@ -312,7 +394,9 @@ pub const CLAUSES: [Clause; 14] = [
                         Subject::rescuing(Rule::PUBLISHED.without(LeastIdentity)),
                     ),
                 ],
-            ),
+            )
+            .under(holding_where!(asks_until_told))
+            .of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::AsksNearest, TWO), &BY_OTHER_CALLS),
             &Check::holds(REPAIRED, &Within(Demand::AsksNearest, ONE_AND_THREE), &BY_OTHER_CALLS),
             &Check::holds(
@@ -348,7 +432,7 @@ pub const CLAUSES: [Clause; 14] = [
         sentence: "A WFR MUST tell its choice to every robot whose MOVE of its call it has received, and to no other.",
         checks: &[
             &Check::refuted(PUBLISHED, &Within(Demand::TellsWhoAsked, TWO_AND_ONE))
-                .under(HOLDS_ANSWERED_IN_A_WINDOW)
+                .under(holding_where!(is_answered_in_a_window))
                 .of(&PAPER),
             &Check::holds(
                 REPAIRED,

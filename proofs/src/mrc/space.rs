@@ -119,6 +119,7 @@ fn arriving(state: &State, action: Action) -> Bits {
     match action {
         Action::Deliver(at) => between(state.network()[at]),
         Action::Raise(_)
+        | Action::Begin(_)
         | Action::Expire(_)
         | Action::Arrive(_)
         | Action::Lapse(_)
@@ -139,6 +140,7 @@ fn actors(is: impl Fn(Actor) -> bool) -> Bits {
 fn has_turned(before: &State, action: Action, after: &State, actor: Actor) -> bool {
     action == Action::Expire(actor)
         || match actor {
+            Actor::Robot(robot) if action == Action::Begin(robot) => true,
             Actor::Robot(robot) => {
                 before.robots[robot].timer() != after.robots[robot].timer()
                     || before.comes_for(robot) != after.comes_for(robot)
@@ -251,10 +253,14 @@ impl System for Space {
         (0..self.setting.wfrs).filter(waits).map(|wfr| 1 << wfr).sum()
     }
 
-    /// The actors whose timer runs or who are on their way, and the messages on theirs.
+    /// The actors whose timer runs, who are on their way or have put off asking, and the messages on theirs.
     fn awake(&self, state: &State) -> Bits {
         let is_awake = |actor: Actor| match actor {
-            Actor::Robot(robot) => state.timer_runs(actor) || state.comes_for(robot).is_some(),
+            Actor::Robot(robot) => {
+                state.timer_runs(actor)
+                    || state.comes_for(robot).is_some()
+                    || state.collects(&self.setting, robot)
+            }
             Actor::Wfr(_) => state.timer_runs(actor),
         };
         state.network().iter().fold(actors(is_awake), |awake, &message| awake | between(message))

@@ -7,7 +7,7 @@ use tautline_kernel::mrc::{Rule, Upward, Word};
 use super::chart::chart;
 use super::space::{self, Refutation};
 use super::state::{Action, Message, place};
-use super::{Demand, Faults, Service, Setting, Subject};
+use super::{Demand, Faults, RobotReading, Setting, Subject};
 use crate::decide::{
     Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
     RefutationPlay, Size, Systems,
@@ -26,7 +26,7 @@ const MOST_STEPS: u64 = 20_000_000;
 
 impl Within {
     fn setting(&self, observed: &Subject) -> Setting {
-        Setting { rule: observed.rule, misread: observed.misread, served: observed.served, ..self.1 }
+        Setting { rule: observed.rule, misread: observed.misread, reading: observed.reading, ..self.1 }
     }
 
     fn evidence(setting: &Setting, broken: &Refutation) -> Evidence {
@@ -139,7 +139,7 @@ impl fmt::Display for Counts {
 /// A run by the published rule, written down for the judge; `None` if more happens in it than the judge knows.
 fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
     let Refutation { run, actions, round } = broken;
-    if setting.rule != Rule::PUBLISHED || setting.served != Service::ByAny || !round.is_empty() {
+    if setting.rule != Rule::PUBLISHED || setting.reading != RobotReading::PUBLISHED || !round.is_empty() {
         return None;
     }
     let mut state = setting.start(run.start as u32);
@@ -159,7 +159,7 @@ fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
             Action::Duplicate(at) => of(at, judge::Fate::ComesTwice),
             Action::Arrive(robot) => does(judge::What::Comes, place(state.comes_for(robot)?.wfr), robot),
             Action::FailRobot(robot) => does(judge::What::Fails, 0, robot),
-            Action::Expire(_) | Action::Lapse(_) | Action::FailNode { .. } => None,
+            Action::Begin(_) | Action::Expire(_) | Action::Lapse(_) | Action::FailNode { .. } => None,
         }?);
         state = state.after(setting, action);
     }

@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::mrc::{Phase, Rule, Task};
 use tautline_proofs::mrc::space::{Space, Until};
 use tautline_proofs::mrc::{
-    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Service, Setting, State, WFRS, chart,
+    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, RobotReading, Setting, State, WFRS, chart,
 };
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
@@ -66,7 +66,7 @@ fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
     Ok(Setting {
         rule: chosen(&[("published", Rule::PUBLISHED), ("repaired", Rule::REPAIRED)], settings)?,
         misread: None,
-        served: Service::ByAny,
+        reading: RobotReading::PUBLISHED,
         robots,
         wfrs: usize::from(number(settings, "wfrs", 2, WFRS as u8)?).max(1),
         events: number(settings, "events", 2, 9)?,

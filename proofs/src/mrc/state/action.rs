@@ -61,6 +61,8 @@ pub enum Action {
     Raise(usize),
     /// The message at this place arrives.
     Deliver(usize),
+    /// A robot that has put off asking asks.
+    Begin(usize),
     /// A timer goes off.
     Expire(Actor),
     /// A robot reaches the WFR to which it is on its way.

@@ -40,6 +40,9 @@ impl State {
             }
         }
         for robot in robots.filter(|&robot| !self.failed[robot]) {
+            if self.collects(setting, robot) {
+                actions.push(Action::Begin(robot));
+            }
             if self.comes_for(robot).is_some() {
                 actions.push(Action::Arrive(robot));
             }
@@ -65,7 +68,7 @@ impl State {
     /// Whether `action` is bound to happen sooner or later if nothing else does: no fault, and no event.
     pub fn is_bound_to_happen(&self, setting: &Setting, action: Action) -> bool {
         match action {
-            Action::Deliver(_) | Action::Arrive(_) | Action::Lapse(_) => true,
+            Action::Begin(_) | Action::Deliver(_) | Action::Arrive(_) | Action::Lapse(_) => true,
             Action::Expire(actor) => self.is_due(setting, actor),
             Action::Raise(_)
             | Action::Lose(_)
@@ -102,6 +105,11 @@ impl State {
                 !self.network.iter().any(is_on_its_way) && !(0..setting.robots).any(comes)
             }
         }
+    }
+
+    /// Whether a robot that lives has put off asking.
+    pub(in crate::mrc) fn collects(&self, setting: &Setting, robot: usize) -> bool {
+        !self.failed[robot] && setting.reading.collects(&self.robots[robot])
     }
 
     /// The call for which a robot is on its way, if it finds it.

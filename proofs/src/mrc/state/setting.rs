@@ -2,7 +2,7 @@
 
 use tautline_kernel::mrc::Rule;
 
-use crate::mrc::{Misreading, Service};
+use crate::mrc::{Misreading, RobotReading};
 
 /// Most robots of a setting.
 pub const ROBOTS: usize = 3;
@@ -88,8 +88,8 @@ pub struct Setting {
     pub rule: Rule,
     /// How they misread what they hear.
     pub misread: Option<Misreading>,
-    /// How robots understand the SBit.
-    pub served: Service,
+    /// How robots read the paper.
+    pub reading: RobotReading,
     /// Robots, at most [`ROBOTS`].
     pub robots: usize,
     /// WFRs, at most [`WFRS`].

@@ -3,7 +3,7 @@
 use std::{array, mem};
 
 use tautline_kernel::mrc::{
-    Bid, Condition, Downward, Mail, Phase, Resb, Robot, ServiceBit, Task, Upward, Wfr, WfrTimer, Word,
+    Bid, Condition, Mail, Phase, Robot, ServiceBit, Task, Upward, Wfr, WfrTimer, Word,
 };
 use tautline_kernel::net::{Call, Notice, RobotId};
 
@@ -12,32 +12,8 @@ use super::demand::Demand;
 use super::parts::{FIRST_WFR, REST, of_network};
 use super::setting::{Faults, ROBOTS, Setting, WFRS};
 use super::{State, node, place, robot_id};
-use crate::mrc::{Misreading, Service};
-
-/// A robot that hears that another one is chosen, and keeps the SBit of the call clear: it executes step 2 with the
-/// records that it had.
-fn pass_over(robot: Robot<WFRS>, resb: Resb) -> (Robot<WFRS>, Option<Upward>) {
-    match robot.task() {
-        Task::Asking { call, .. } | Task::Leased { call } if call.wfr == resb.call.wfr => {
-            let mut requests = robot.requests().copied();
-            let requests = std::array::from_fn(|_| requests.next());
-            Robot::kept(*robot.rule(), robot.id(), requests, Task::Leased { call }).arrive()
-        }
-        Task::Asking { .. } | Task::Leased { .. } | Task::Free => (robot, None),
-    }
-}
-
-/// A robot that is told of a choice. One on its way that takes it for the choice of the WFR to which it goes says that
-/// it comes, and goes on.
-fn heed(robot: Robot<WFRS>, resb: Resb, misread: Option<Misreading>) -> (Robot<WFRS>, Option<Upward>) {
-    let (next, sent) = robot.receive(Downward::Resb(resb));
-    match (misread, robot.task()) {
-        (Some(Misreading::Offers), Task::Leased { .. }) => {
-            (next, sent.map(|sent| Upward { word: Word::Accept, ..sent }))
-        }
-        _ => (next, sent),
-    }
-}
+use crate::mrc::Misreading;
+use crate::mrc::reading::begin;
 
 impl State {
     /// The state after `action`, which must be one of [`Self::actions`].
@@ -64,6 +40,7 @@ impl State {
                 self.touch(of_network(message.robot()));
                 self.deliver(setting, message);
             }
+            Action::Begin(robot) => self.turn_robot(setting, robot, |robot| begin(&robot)),
             Action::Expire(actor) => {
                 if !self.is_due(setting, actor) {
                     self.spend(|left| &mut left.delays);
@@ -75,12 +52,12 @@ impl State {
                     let wfr = place(call.wfr);
                     self.wfrs[wfr] = self.wfrs[wfr].reach(robot_id(robot));
                     self.touch(FIRST_WFR + wfr);
-                    self.turn_robot(robot, Robot::arrive);
+                    self.turn_robot(setting, robot, Robot::arrive);
                 }
             }
             Action::Lapse(robot) => {
                 if let Task::Leased { call } = self.robots[robot].task() {
-                    self.turn_robot(robot, |robot| robot.lapse(call));
+                    self.turn_robot(setting, robot, |robot| robot.lapse(call));
                 }
             }
             Action::Lose(at) => {
@@ -143,7 +120,7 @@ impl State {
                 let robot = usize::from(id.0);
                 let wfr = notice.call.wfr;
                 let known = self.robots[robot].request(wfr).map(|request| request.call.epoch);
-                self.turn_robot(robot, |robot| robot.receive(Downward::Notice(notice)));
+                self.turn_robot(setting, robot, |robot| setting.reading.hear(robot, notice));
                 let is_new = known.is_none_or(|known| known < notice.call.epoch);
                 let is_served =
                     self.robots[robot].request(wfr).is_some_and(|request| request.served == ServiceBit::Yes);
@@ -154,9 +131,15 @@ impl State {
             Message::Resb(resb) => {
                 let (robot, before) =
                     (usize::from(resb.robot.0), self.robots[usize::from(resb.robot.0)].task());
-                self.turn_robot(robot, |robot| match setting.served {
-                    Service::ByItself if resb.chosen != Some(resb.robot) => pass_over(robot, resb),
-                    Service::ByAny | Service::ByItself => heed(robot, resb, setting.misread),
+                self.turn_robot(setting, robot, |robot| {
+                    let (next, sent) = setting.reading.heed(robot, resb);
+                    match (setting.misread, robot.task()) {
+                        // On its way it says that it comes, and goes on.
+                        (Some(Misreading::Offers), Task::Leased { .. }) => {
+                            (next, sent.map(|sent| Upward { word: Word::Accept, ..sent }))
+                        }
+                        _ => (next, sent),
+                    }
                 });
                 let task = self.robots[robot].task();
                 let asked = |task: Task| match task {
@@ -190,7 +173,7 @@ impl State {
         match actor {
             Actor::Robot(robot) => {
                 if let Some(timer) = self.robots[robot].timer() {
-                    self.turn_robot(robot, |robot| robot.expire(timer));
+                    self.turn_robot(setting, robot, |robot| robot.expire(timer));
                 }
             }
             Actor::Wfr(wfr) => {
@@ -208,7 +191,12 @@ impl State {
         }
     }
 
-    fn turn_robot(&mut self, robot: usize, turn: impl FnOnce(Robot<WFRS>) -> (Robot<WFRS>, Option<Upward>)) {
+    fn turn_robot(
+        &mut self,
+        setting: &Setting,
+        robot: usize,
+        turn: impl FnOnce(Robot<WFRS>) -> (Robot<WFRS>, Option<Upward>),
+    ) {
         let before = self.robots[robot].task();
         let (next, sent) = turn(self.robots[robot]);
         self.robots[robot] = next;
@@ -226,7 +214,7 @@ impl State {
                 true
             }
             (_, Task::Asking { call, .. }) => nearest() != Some(call),
-            (_, Task::Free) => nearest().is_some(),
+            (_, Task::Free) => nearest().is_some() && !setting.reading.collects(&next),
             (_, Task::Leased { .. }) => false,
         };
         if has_strayed {
@@ -362,29 +350,5 @@ impl State {
                 }
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use tautline_kernel::mrc::Rule;
-    use tautline_kernel::net::{Epoch, NodeId};
-
-    use super::*;
-
-    /// “If a mobile node is not selected, it can reply to another un-replied notification
-    /// packet”: not where its SBit stays clear.
-    #[test]
-    fn a_robot_whose_sbit_stays_clear_asks_the_same_wfr_again_and_again() {
-        let call = |wfr| Call { wfr: NodeId(wfr), epoch: Epoch(1) };
-        let hears = |robot: Robot<WFRS>, (wfr, hops)| {
-            robot.receive(Downward::Notice(Notice { call: call(wfr), hops, sender: NodeId(9) })).0
-        };
-        let robot = [(1, 0), (2, 3)].into_iter().fold(Robot::new(Rule::PUBLISHED, RobotId(1)), hears);
-        let resb = Resb { call: call(1), robot: RobotId(1), chosen: Some(RobotId(0)) };
-        let asks = |turn: (_, Option<Upward>)| turn.1.map(|sent| sent.call);
-        assert_eq!(asks(robot.receive(Downward::Resb(resb))), Some(call(2)));
-        let (same, sent) = pass_over(robot, resb);
-        assert_eq!((same, sent.map(|sent| sent.call)), (robot, Some(call(1))));
     }
 }
