@@ -50,6 +50,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 use tautline_io::diagnostic::Halt;
@@ -162,7 +163,7 @@ fn main() -> ExitCode {
         Ok((cli, arguments)) => {
             guarded(|| command(&cli, arguments.subcommand_name().unwrap_or_default())).into()
         }
-        Err(error) => told(&error).into(),
+        Err(error) => told(&with_names(error)).into(),
     }
 }
 
@@ -182,6 +183,32 @@ fn told(error: &clap::Error) -> Exit {
         }
         Ok(()) | Err(_) => Exit::Expected,
     }
+}
+
+/// The error with the names that a command knows, where it was given another one, and none is like it.
+fn with_names(mut error: clap::Error) -> clap::Error {
+    let is_told = error.get(ContextKind::SuggestedSubcommand).is_some();
+    if is_told || error.kind() != ErrorKind::InvalidSubcommand {
+        return error;
+    }
+    let usage = error.get(ContextKind::Usage).map(ToString::to_string).unwrap_or_default();
+    let mut program = program();
+    program.build();
+    if let Some(command) = by_usage(&mut program, &usage) {
+        let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        let of = command.get_subcommand_help_heading().unwrap_or("commands").to_lowercase();
+        let tip = format!("the {of} are {}", names.join(", "));
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    error
+}
+
+/// The command with others in it of which this is the usage: an error tells no more of where it is.
+fn by_usage<'a>(command: &'a mut clap::Command, usage: &str) -> Option<&'a clap::Command> {
+    if command.has_subcommands() && command.render_usage().to_string() == usage {
+        return Some(command);
+    }
+    command.get_subcommands_mut().find_map(|command| by_usage(command, usage))
 }
 
 /// The command line, as the help, the manual pages and the completions tell of it.

@@ -299,10 +299,15 @@ impl Entry {
         Self { tool: Tool::new(T::NAME, about.unwrap_or_default(), Arc::new(schema)), line }
     }
 
+    /// The names of its arguments.
+    fn arguments(&self) -> impl Iterator<Item = &str> {
+        let known = self.tool.input_schema.get("properties").and_then(Value::as_object);
+        known.into_iter().flat_map(Map::keys).map(String::as_str)
+    }
+
     /// Whether it has an argument of this name.
     fn takes(&self, name: &str) -> bool {
-        let known = self.tool.input_schema.get("properties").and_then(Value::as_object);
-        known.is_some_and(|known| known.contains_key(name))
+        self.arguments().any(|known| known == name)
     }
 
     /// The line of a call with these arguments in `folder`.
@@ -311,7 +316,8 @@ impl Entry {
     /// The words for an argument that is unknown or refused.
     fn line<'a>(&self, arguments: Map<String, Value>, folder: &'a Path) -> Result<Line<'a>, String> {
         if let Some(unknown) = arguments.keys().find(|key| !self.takes(key)) {
-            return Err(format!("there is no argument {unknown:?}"));
+            let known: Vec<&str> = self.arguments().collect();
+            return Err(format!("there is no argument {unknown:?}: the arguments are {}", known.join(", ")));
         }
         let arguments = Value::from(arguments);
         let words = vec![self.tool.name.to_string().into()];
@@ -366,7 +372,9 @@ impl ServerHandler for Server {
         context: RequestContext<RoleServer>,
     ) -> Result<CallToolResponse, ErrorData> {
         let Some(entry) = self.entries.iter().find(|entry| entry.tool.name == request.name) else {
-            return Err(ErrorData::invalid_params(format!("there is no tool {:?}", request.name), None));
+            let known: Vec<&str> = self.entries.iter().map(|entry| &*entry.tool.name).collect();
+            let what = format!("there is no tool {:?}: the tools are {}", request.name, known.join(", "));
+            return Err(ErrorData::invalid_params(what, None));
         };
         let line = entry.line(request.arguments.unwrap_or_default(), &self.folder);
         let line = line.map_err(|what| ErrorData::invalid_params(what, None))?;

@@ -130,13 +130,24 @@ impl Prove {
         }
         let find = |id: &String| {
             ledger::clauses().find(|clause| clause.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
-                let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
-                let remedy = format!("the clauses are {}", known.join(", "));
-                Diagnostic::usage(format_args!("there is no clause {id:?}"), remedy)
+                Diagnostic::usage(format_args!("there is no clause {id:?}"), known_clauses(id))
             })
         };
         self.clauses.iter().map(find).collect()
     }
+}
+
+/// The clauses that one may have meant by an id that none has: those of its scheme, or else how ids are made.
+fn known_clauses(id: &str) -> String {
+    let asked = id.split('-').next().unwrap_or(id);
+    let near = ledger::clauses().filter(|clause| clause.scheme().eq_ignore_ascii_case(asked));
+    let near: Vec<&str> = near.map(|clause| clause.id).collect();
+    if !near.is_empty() {
+        return format!("the clauses of {} are {}", asked.to_ascii_uppercase(), near.join(", "));
+    }
+    let mut schemes: Vec<&str> = ledger::clauses().map(Clause::scheme).collect();
+    schemes.dedup();
+    format!("name one of {}, and its number, as CHAIN-1", schemes.join(", "))
 }
 
 /// How much is printed for people.

@@ -197,7 +197,8 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
         ("prove", json!({"clauses": []}), "name a clause"),
         ("prove", json!({"clauses": ["CHAIN-99"]}), "there is no clause"),
         ("replay", json!({"file": "no-such.jsonl"}), "no-such.jsonl: there is no such file"),
-        ("dance", json!({}), "dance"),
+        ("explore", json!({"layout": "open:5x5", "colour": 1}), ", max_moves, "),
+        ("dance", json!({}), "\"dance\": the tools are prove, hunt, explore, minimise, replay"),
     ] {
         let said = client.refused(tool, &arguments);
         assert!(said.contains(word), "{tool} {arguments}: {said}");

@@ -43,6 +43,27 @@ fn each_scheme_is_listed_and_runs_by_its_own_rule() {
 }
 
 #[test]
+fn a_wrong_name_is_answered_with_the_names_there_are() {
+    let folder = &folder();
+    let tables = json(folder, &["reproduce"], 0);
+    let tables = tables["reproductions"].as_array().expect("a list");
+    let tables: Vec<&str> = tables.iter().filter_map(|table| table["id"].as_str()).collect();
+    let tip = format!("tip: the tables are {}\n", tables.join(", "));
+    for asked in [&["reproduce", "nope"][..], &["help", "reproduce", "nope"]] {
+        says(&refused(folder, asked), &["'nope'", &tip]);
+    }
+    says(&refused(folder, &["reproduce", "kit"]), &["'kit-range'", "'kit-fig9'"]);
+    for asked in [&["nope"][..], &["help", "nope"], &["--verbose", "nope"]] {
+        says(&refused(folder, asked), &["'nope'", "tip: the commands are prove, library, schemes,"]);
+    }
+    says(
+        &refused(folder, &["prove", "pack-99"]),
+        &["no clause \"pack-99\"", "the clauses of PACK are PACK-1,"],
+    );
+    says(&refused(folder, &["prove", "nope"]), &["LATTICE, CHAIN, ", "PACK, and its number, as CHAIN-1"]);
+}
+
+#[test]
 fn hunt_offers_the_schemes_of_which_something_is_hunted_and_no_others() {
     let folder = &folder();
     let (listed, help) = (json(folder, &["schemes"], 0), printed(folder, &["hunt", "--help"], 0));
