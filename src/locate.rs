@@ -12,6 +12,7 @@ use tautline_field::position::{
 };
 use tautline_io::diagnostic::{Diagnostic, Halt, one_line};
 use tautline_io::named_values::NamedValues;
+use tautline_io::number::Number;
 use tautline_io::text_table::{Column, TextTable, Width};
 use tautline_io::value_parser::{Metres, metres_within, number, within};
 use tautline_kernel::net::Propagation;
@@ -203,8 +204,8 @@ impl Locate {
             setting.anchors.area().nearest(at) != at
         };
         if let Some([x_m, y_m]) = setting.at_m.filter(|at| setting.inside && outside(at)) {
-            let what =
-                format!("--inside keeps to the rectangle that the anchors span, and {x_m},{y_m} is outside");
+            let at = format!("{},{}", Number(x_m), Number(y_m));
+            let what = format!("--inside keeps to the rectangle that the anchors span, and {at} is outside");
             return Err(Diagnostic::usage(what, "give --at a place within it, or leave --inside out").into());
         }
         let (setting, report) = progress::during("locating", setting.parts(), |watch| setting.run(watch))?;
@@ -256,16 +257,16 @@ impl Locate {
 fn title(setting: &Setting) -> String {
     let Setting { signal, solver, rule, .. } = setting;
     let order = if *solver == Solver::Pso { format!(" ({rule})") } else { String::new() };
-    let (noise_db, exponent) = (signal.noise_db(), signal.propagation().exponent());
+    let (noise_db, exponent) = (Number(signal.noise_db()), signal.propagation().exponent());
     format!("{}{order}, noise {noise_db} dB, exponent {exponent}", solver.word())
 }
 
 fn text(setting: &Setting, report: &Report) -> String {
     let anchors = setting.anchors.places().len();
-    let [width_m, height_m] = setting.anchors.sides_m();
+    let [width_m, height_m] = setting.anchors.sides_m().map(Number);
     let place = setting.at_m.map_or_else(
         || format!("a robot anywhere in {width_m}×{height_m} m"),
-        |[x_m, y_m]| format!("a robot at {x_m},{y_m}"),
+        |[x_m, y_m]| format!("a robot at {},{}", Number(x_m), Number(y_m)),
     );
     let mut columns =
         TextTable::new([Column::left(Width::Fit)].into_iter().chain([Column::left(Width::Fit); 3]));
@@ -311,6 +312,7 @@ fn text(setting: &Setting, report: &Report) -> String {
 
 fn advice(advice: &Advice) -> String {
     let Advice { side_m, p99_m, cells_believed, cells_tracked } = advice;
+    let side_m = Number(*side_m);
     format!(
         "\n99 % of the errors are below {p99_m:.3} m. Across {side_m} m a floor can have\n\
          at most {} where a robot believes each fix,\n\

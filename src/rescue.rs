@@ -12,6 +12,7 @@ use serde::Serialize;
 use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
 use tautline_io::named_values::NamedValues;
+use tautline_io::number::Number;
 use tautline_io::text_table::{Column, TextTable, Width};
 use tautline_io::value_parser::{Metres, real, whole};
 use tautline_proofs::mrc::Demand;
@@ -367,7 +368,8 @@ fn print(
 }
 
 fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
-    let Setting { rule, scheme, k, nodes, area_m: [width_m, height_m], range_m, channel, .. } = setting;
+    let Setting { rule, scheme, k, nodes, area_m, range_m, channel, .. } = setting;
+    let ([width_m, height_m], range_m) = (area_m.map(Number), Number(*range_m));
     let k = match scheme {
         SchemeName::KFnf | SchemeName::Counter => format!(", k = {k}"),
         SchemeName::Flooding | SchemeName::Distance | SchemeName::Sba => String::new(),
@@ -381,6 +383,7 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
         (first, last) => format!("{} rescues, seeds {first}..{last}", count(seeds)),
     };
     let Setting { loss, noise_db, failing, failing_nodes, .. } = setting;
+    let [loss, noise_db] = [*loss, *noise_db].map(Number);
     format!(
         "{} for {}, calling {times}{}: MRC ({rule}), {}{k}\n\
          {nodes} nodes in {width_m}×{height_m} m, range {range_m} m{}, {}, {} channel\n\
@@ -400,7 +403,8 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
 /// How signals spread, unless everything within the range is heard, and nothing else.
 fn shadows(setting: &Setting) -> String {
     let Setting { shadowing_db, exponent, .. } = *setting;
-    let shadows = if shadowing_db == 0.0 { String::new() } else { format!(", shadows {shadowing_db} dB") };
+    let shadows =
+        if shadowing_db == 0.0 { String::new() } else { format!(", shadows {} dB", Number(shadowing_db)) };
     let exponent = if exponent == FREE_SPACE { String::new() } else { format!(", exponent {exponent}") };
     shadows + &exponent
 }

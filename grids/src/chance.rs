@@ -9,6 +9,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::Diagnostic;
+use tautline_io::number::Number;
 use tautline_kernel::choice::Oracle;
 
 /// Dice that fall the same for the same seed and tag on every machine: `ChaCha8`, seeded with the seed in the first
@@ -97,7 +98,7 @@ impl TryFrom<f64> for Probability {
     type Error = String;
 
     fn try_from(p: f64) -> Result<Self, String> {
-        Self::new(p).ok_or_else(|| no_probability(&p.to_string()).what().to_owned())
+        Self::new(p).ok_or_else(|| no_probability(&Number(p).to_string()).what().to_owned())
     }
 }
 
@@ -109,7 +110,7 @@ impl From<Probability> for f64 {
 
 impl fmt::Display for Probability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
+        Number(self.0).fmt(f)
     }
 }
 

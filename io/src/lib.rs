@@ -7,6 +7,7 @@ pub mod checkpoint;
 pub mod diagnostic;
 pub mod json_lines;
 pub mod named_values;
+pub mod number;
 pub mod schema;
 pub mod shards;
 pub mod svg;

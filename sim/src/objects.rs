@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::number::Number;
 use tautline_io::text_table::{Column, TextTable, Width};
 use tautline_io::value_parser::{real, whole};
 use tautline_kernel::choice::Oracle;
@@ -52,7 +53,8 @@ impl Display for Objects {
         match self {
             Self::Count(count) => count.fmt(f),
             Self::At(places) => {
-                let words: Vec<String> = places.iter().map(|[x, y]| format!("{x}:{y}")).collect();
+                let words: Vec<String> =
+                    places.iter().map(|&[x, y]| format!("{}:{}", Number(x), Number(y))).collect();
                 f.write_str(&words.join(","))
             }
         }

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::number::Number;
 use tautline_io::value_parser::{real, whole};
 use tautline_kernel::frontier::Threshold;
 use tautline_kernel::net::Propagation;
@@ -156,7 +157,7 @@ impl FromStr for Wheels {
 
 impl Display for Wheels {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}", self.share, self.turn_degrees)
+        write!(f, "{}:{}", Number(self.share), Number(self.turn_degrees))
     }
 }
 
@@ -387,6 +388,7 @@ impl Extra {
             let what = "drives are faster or slower by less than the whole speed";
             unless(is_right, what, "give `spread` a share from 0 to 0.999")
         },
+        typed: |options| words(options.spread.map(Number)),
         ..told!("spread", spread, real)
     };
 
@@ -485,8 +487,8 @@ impl Extra {
 }
 
 /// A number that is not the usual one, bit by bit.
-fn unusual(number: f64, usual: f64) -> Option<f64> {
-    Some(number).filter(|number| number.to_bits() != usual.to_bits())
+fn unusual(number: f64, usual: f64) -> Option<Number> {
+    Some(Number(number)).filter(|_| number.to_bits() != usual.to_bits())
 }
 
 impl PartialEq for Extra {

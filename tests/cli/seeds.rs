@@ -78,3 +78,25 @@ fn a_seed_that_draws_nothing_is_refused_with_what_would_be_drawn() {
     assert_snapshot!(said.join("\n"));
     assert!(refused(folder, &["show", "open:5x5", "--seed", "3"]).contains("nothing here is left to chance"));
 }
+
+#[test]
+fn a_number_that_nobody_writes_out_has_an_exponent_in_texts_and_commands() {
+    let folder = &folder();
+    let frontier =
+        "explore open:3x3 --scheme frontier --robots 2 --loss 1e-320 --noise-db 1e-31 --odometry 1e-9:1e-30";
+    let rescue = "rescue --seeds 0 --loss 1e-320 --noise-db 1e-310 --shadowing-db 1e-300 --robot 1e-312,1";
+    for (command, numbers) in [
+        (frontier, &["--loss 1e-320", "--noise-db 1e-31", "--odometry 0.000000001:1e-30"][..]),
+        ("explore open:3x3 --scheme kit --robots 2 --spread 1e-320", &["--spread 1e-320"]),
+        (rescue, &["--loss 1e-320", "--noise-db 1e-310", "--shadowing-db 1e-300", "--robot 1e-312,1"]),
+    ] {
+        let asked: Vec<&str> = command.split(' ').chain(["--html", "run.html", "--force"]).collect();
+        let told = ran(folder, &asked);
+        let told = String::from_utf8(told.stdout).expect("text");
+        assert!(!told.contains("0000000000"), "{told}");
+        says(&on_page(&read(folder, "run.html"), "command"), numbers);
+    }
+    let told = printed(folder, &["locate", "--noise-db", "1e-300", "--runs", "3"], 0);
+    assert!(told.contains(", noise 1e-300 dB,"), "{told}");
+    says(&refused(folder, &["rescue", "--range", "1e300"]), &["the radio range cannot be 1e300 m"]);
+}

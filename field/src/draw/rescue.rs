@@ -11,6 +11,7 @@ use crate::radio::Point;
 use crate::rescue::{Event, Fix, Journey, LogEntry, Ordinal, Report, SchemeName, Setting, seconds};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::named_values::NamedValues;
+use tautline_io::number::Number;
 use tautline_sim::draw::page::film::{self, Again, Board, Film, Share};
 use tautline_sim::draw::page::{base36, is_too_large, too_large, word};
 use tautline_sim::explore::{ClauseId, Kind, Layer, Shape};
@@ -193,7 +194,8 @@ fn is_arrival(journey: &Journey, at_ns: u64, event: Event) -> bool {
 
 /// The command that makes the rescue again.
 fn command(setting: &Setting, seed: u64) -> String {
-    let Setting { rule, scheme, nodes, area_m: [width_m, height_m], range_m, .. } = setting;
+    let Setting { rule, scheme, nodes, area_m, range_m, .. } = setting;
+    let ([width_m, height_m], range_m) = (area_m.map(Number), Number(*range_m));
     let mut command = format!(
         "tautline rescue --seeds {seed} --rule {rule} --scheme {} --nodes {nodes} --area {width_m}x{height_m} \
          --range {range_m} --wfr {} --robots {} --events {} --calls {} --channel {} --loss {} --shadowing-db {} \
@@ -204,23 +206,25 @@ fn command(setting: &Setting, seed: u64) -> String {
         setting.events_per_wfr,
         setting.calls.word(),
         setting.channel.word(),
-        setting.loss,
-        setting.shadowing_db,
+        Number(setting.loss),
+        Number(setting.shadowing_db),
         setting.exponent,
-        setting.noise_db,
+        Number(setting.noise_db),
         setting.failing,
         setting.failing_nodes,
     );
     if matches!(scheme, SchemeName::KFnf | SchemeName::Counter) {
         let _ = write!(command, " --k {}", setting.k);
     }
-    for [west, north, east, south] in &setting.obstacles_m {
+    for sides_m in &setting.obstacles_m {
+        let [west, north, east, south] = sides_m.map(Number);
         let _ = write!(command, " --obstacle {west},{north},{east},{south}");
     }
     for node in &setting.wfrs_at {
         let _ = write!(command, " --wfr-at {node}");
     }
-    for [x, y] in &setting.robots_at_m {
+    for place_m in &setting.robots_at_m {
+        let [x, y] = place_m.map(Number);
         let _ = write!(command, " --robot {x},{y}");
     }
     command + " --html rescue.html"

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use tautline_io::number::Number;
+
 /// A fault of a radio field.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[expect(missing_docs, reason = "the fields are the numbers that the sentence of each problem shows")]
@@ -80,22 +82,22 @@ impl Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Side { side_m } => write!(f, "an area cannot have a side of {side_m} m"),
+            Self::Side { side_m } => write!(f, "an area cannot have a side of {} m", Number(side_m)),
             Self::Nodes { nodes: 0 } => write!(f, "there is no node"),
             Self::Nodes { nodes: 1 } => write!(f, "one node is no network"),
             Self::Nodes { nodes } => write!(f, "{nodes} nodes are too many"),
             Self::Outside { node, x_m, y_m } => {
-                write!(f, "node {node} at {x_m}, {y_m} m is not inside the area")
+                write!(f, "node {node} at {}, {} m is not inside the area", Number(x_m), Number(y_m))
             }
             Self::Blocked { node } => write!(f, "node {node} is in an obstacle"),
             Self::Obstacle { obstacle } => write!(f, "obstacle {} is no rectangle", obstacle + 1),
             Self::NoRoom => write!(f, "the obstacles leave no room for nodes"),
-            Self::Range { range_m } => write!(f, "the radio range cannot be {range_m} m"),
-            Self::Exponent { exponent } => write!(f, "power cannot fall with exponent {exponent}"),
+            Self::Range { range_m } => write!(f, "the radio range cannot be {} m", Number(range_m)),
+            Self::Exponent { exponent } => write!(f, "power cannot fall with exponent {}", Number(exponent)),
             Self::Deviation { deviation_db } => {
-                write!(f, "signals cannot vary by a standard deviation of {deviation_db} dB")
+                write!(f, "signals cannot vary by a standard deviation of {} dB", Number(deviation_db))
             }
-            Self::Probability { probability } => write!(f, "{probability} is no probability"),
+            Self::Probability { probability } => write!(f, "{} is no probability", Number(probability)),
             Self::TooDense { pairs, most } => {
                 write!(f, "{pairs} pairs of nodes may hear each other, and memory is for {most}")
             }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::named_values::NamedValues;
+use tautline_io::number::Number;
 use tautline_proofs::plural::counted;
 
 use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
@@ -135,7 +136,7 @@ impl fmt::Display for Problem {
                 write!(f, "there are {places} places for {}", counted(robots, "robot"))
             }
             Self::RobotOutside { robot, x_m, y_m } => {
-                write!(f, "robot {robot} at {x_m}, {y_m} m is not inside the area")
+                write!(f, "robot {robot} at {}, {} m is not inside the area", Number(x_m), Number(y_m))
             }
             Self::RobotBlocked { robot } => write!(f, "robot {robot} is in an obstacle"),
             Self::Failing { failing, robots } => {

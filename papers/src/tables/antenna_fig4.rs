@@ -210,7 +210,7 @@ impl Table for AntennaFig4 {
             .right("", 5, |angle| format!("{}°", angle.degrees))
             .right("", 8, level);
         let noises = Columns::of(&merged.noises)
-            .right("noise, dB", 9, |noise| noise.noise_db)
+            .right("noise, dB", 9, |noise| Number(noise.noise_db))
             .percent("right, %", 23, 2, |noise| noise.right)
             .percent("one beside, %", 23, 2, |noise| noise.beside)
             .estimate("off, degrees", 14, 2, |noise| noise.degrees_off);
@@ -219,7 +219,7 @@ impl Table for AntennaFig4 {
              Scans of nodes in random directions, {} for each noise, seed {}\n\n{}\n\
              right: the strongest direction is the nearest of the 24 to the node's · one beside: that, or one of the \
              two beside it ·\noff: between the strongest direction and the node's · ±, […]: the 95 % interval\n",
-            merged.distance_m,
+            Number(merged.distance_m),
             pattern.text(),
             merged.scans,
             merged.seed,
@@ -230,7 +230,7 @@ impl Table for AntennaFig4 {
     fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let point = |angle: &Angle| Some(chart::Point::plain(angle.degrees.into(), angle.level_db?));
         let chart = LineChart::new(
-            format!("What a robot hears of a node {} m off", merged.distance_m),
+            format!("What a robot hears of a node {} m off", Number(merged.distance_m)),
             Axis::new("angle between antenna and node", "degrees").showing([-180.0, 180.0]),
             Axis::new("above the weakest signal heard all round", "dB").showing([0.0, 10.0]),
             [Series::measured("directional antenna", merged.pattern.iter().filter_map(point))],

@@ -137,7 +137,7 @@ impl Table for Floors {
              which an agent was done although another\n\
              cell was unexplored or left to go through. ended: runs that were stopped after {max_steps} \
              steps of all agents.\n",
-            miss * 100.0,
+            Number(miss * 100.0),
             columns.text()
         ))
     }

@@ -57,10 +57,14 @@ settings! {
 /// The anchors of a field, and how they are heard.
 pub(super) fn field(settings: &Field) -> Result<(Anchors, Signal), Halt> {
     let Field { exponent, noise_db, .. } = settings;
-    let no_exponent =
-        || Diagnostic::usage(format!("the exponent {exponent} is none"), "give an exponent from 2 to 5");
-    let no_noise =
-        || Diagnostic::usage(format!("a noise of {noise_db} dB is none"), "give decibels from 0 to 100");
+    let no_exponent = || {
+        let what = format!("the exponent {} is none", Number(*exponent));
+        Diagnostic::usage(what, "give an exponent from 2 to 5")
+    };
+    let no_noise = || {
+        let what = format!("a noise of {} dB is none", Number(*noise_db));
+        Diagnostic::usage(what, "give decibels from 0 to 100")
+    };
     let propagation = Propagation::new(*exponent).ok_or_else(no_exponent)?;
     let signal = Signal::new(propagation, *noise_db).ok_or_else(no_noise)?;
     Ok((Anchors::new(SQUARE.to_vec()).map_err(refused)?, signal))
@@ -161,7 +165,10 @@ impl Table for LocateConvergence {
         let heading = format!(
             "{PARTICLES} particles, medians of {} positions, noise {} dB, exponent {}, seed {}; \
              swarms of so many iterations in all:",
-            settings.trials, settings.noise_db, settings.exponent, settings.seed
+            settings.trials,
+            Number(settings.noise_db),
+            settings.exponent,
+            settings.seed
         );
         let optimum = |End { optimum_m, interval_m, .. }: End| {
             let ends = |[least, most]: [f64; 2]| format!(" [{:.1}, {:.1}]", 1e3 * least, 1e3 * most);
@@ -208,7 +215,7 @@ impl Table for LocateConvergence {
             interval: after.interval_m.map(|ends| ends.map(|end| 1e2 * end)),
         };
         let series = |one: &Variant| Series::measured(one.reading, one.ends.after.iter().map(point));
-        let title = format!("How near swarms end to the optimum, noise {} dB", settings.noise_db);
+        let title = format!("How near swarms end to the optimum, noise {} dB", Number(settings.noise_db));
         let x = Axis::new("iterations in all", "").showing([0.0, 50.0]);
         let y = Axis::new("median distance to the optimum", "cm").showing([0.0, 5.0]);
         Ok(LineChart::new(title, x, y, merged.variants.iter().map(series)).svg())

@@ -183,7 +183,7 @@ impl Table for LocateExplore {
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Self::Job>, Halt> {
         if let Some(wrong) = settings.noise_db.iter().find(|noise_db| !(0.0..=100.0).contains(*noise_db)) {
-            let what = format!("a standard deviation of noise is not {wrong} dB");
+            let what = format!("a standard deviation of noise is not {} dB", Number(*wrong));
             return Err(Diagnostic::usage(what, "give `noise-db` numbers of decibels from 0 to 100").into());
         }
         Ok(runs(settings.points(), |_| settings.layouts))
@@ -260,7 +260,7 @@ impl Table for LocateExplore {
             let mut clean = Columns::of(lines).left("clean runs, %", 32, |line| line.rule);
             let mut repaired = Columns::of(&parts).left("repaired", 32, |part| part.0);
             for (noise, noise_db) in settings.noise_db.iter().enumerate() {
-                let title = format!("{noise_db} dB");
+                let title = format!("{} dB", Number(*noise_db));
                 clean = clean.right(title.clone(), WIDTH, move |line| percent(line.figures[noise].clean, 1));
                 repaired = repaired.right(title, WIDTH, move |part| part.1(&figures[noise]));
             }
@@ -366,7 +366,7 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
             };
             Some(&lines.iter().find(is_it)?.figures[last])
         };
-        let floor = format!("{width}×{height} cells, {blocked} % blocked, {noise_db} dB");
+        let floor = format!("{width}×{height} cells, {blocked} % blocked, {} dB", Number(noise_db));
         let teams = [*fewest, *most].map(|robots| (robots, of(REPAIRED, robots)));
         let ends = |part: fn(&Figure) -> Option<Estimate>| {
             teams.map(|(_, figure)| figure.and_then(part).and_then(|one| one.interval))

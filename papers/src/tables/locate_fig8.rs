@@ -164,7 +164,10 @@ impl Table for LocateFig8 {
     fn text(&self, settings: &Field, merged: &Summary) -> Result<String, Halt> {
         let heading = format!(
             "Localisation error in metres, {} teams, noise {} dB, exponent {}, seed {}; robots:",
-            settings.trials, settings.noise_db, settings.exponent, settings.seed
+            settings.trials,
+            Number(settings.noise_db),
+            settings.exponent,
+            settings.seed
         );
         let parts: [(&str, Part); 2] = [
             ("mean of the team", |errors| errors.mean_m),
@@ -196,7 +199,7 @@ impl Table for LocateFig8 {
         let drawn = [0, 1, 3];
         let means = drawn.map(|number| series(number, "mean", |errors| errors.mean_m));
         let worst = drawn.map(|number| series(number, "worst robot", |errors| errors.worst_m));
-        let title = format!("Localisation error, noise {} dB", settings.noise_db);
+        let title = format!("Localisation error, noise {} dB", Number(settings.noise_db));
         let x = Axis::new("robots", "").showing([0.0, 8.0]);
         let y = Axis::new("error", "m").showing([0.0, 1.0]);
         Ok(LineChart::new(title, x, y, means.into_iter().chain(worst)).svg())

@@ -176,7 +176,8 @@ impl Table for Margins {
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
-        let Settings { range_m, cell_m, exponent } = settings;
+        let Settings { range_m, cell_m, exponent } = *settings;
+        let [range_m, cell_m, exponent] = [range_m, cell_m, exponent].map(Number);
         let head = format!(
             "A range of {range_m} m, cells of {cell_m} m, paths of {PATH_M} m, a signal \
              that weakens with exponent {exponent}\n\n"

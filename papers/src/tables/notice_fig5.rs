@@ -237,11 +237,11 @@ impl Table for NoticeFig5 {
         let densities = &merged.densities;
         let heading = format!(
             "{side}×{side} m, range {} m, {} for each number of nodes, seed {}, {} channel",
-            settings.range_m,
+            Number(settings.range_m),
             counted(settings.topologies, "topology"),
             settings.seed,
             settings.channel.word(),
-            side = settings.side_m,
+            side = Number(settings.side_m),
         );
         let mut table = Figures::new(heading, densities);
         table.row("nodes", |density| density.nodes.to_string());

@@ -19,17 +19,17 @@ pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
     };
     let near = match settings.near_percent {
         near if near.total_cmp(&1.0).is_eq() => String::new(),
-        near => format!(", at a node within {near} % of the range"),
+        near => format!(", at a node within {} % of the range", Number(near)),
     };
     let heading = format!(
         "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for \
          each number of nodes, seed {}{scan}{near}",
-        settings.range_m,
+        Number(settings.range_m),
         settings.k.0.get(),
-        settings.noise_db,
+        Number(settings.noise_db),
         counted(settings.topologies, "topology"),
         settings.seed,
-        side = settings.side_m,
+        side = Number(settings.side_m),
     );
     let mut table = Figures::new(heading, densities);
     if is_by_shape {
