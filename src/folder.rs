@@ -5,10 +5,13 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use tautline_io::atomic_file::{AtomicFile, check_name};
-use tautline_io::diagnostic::Diagnostic;
+use tautline_io::diagnostic::{Diagnostic, unmade};
 use tautline_sim::explore::Setup;
 
 use super::output::{Output, argument, replay_line};
+
+/// The remedy where no folder can be made.
+const REMEDY: &str = "name a folder, or a place where one can be made";
 
 /// Makes the folder that --out names, if it is not there. The folders that are new, the inmost first.
 pub(super) fn make_folder(out: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
@@ -17,13 +20,16 @@ pub(super) fn make_folder(out: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
     let new: Vec<PathBuf> = out.ancestors().take_while(is_new).map(Path::to_owned).collect();
     if let Err(error) = fs::create_dir_all(out) {
         clear(&new);
-        let what = match error.kind() {
+        let (what, remedy) = match error.kind() {
             ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
-                "a file is where the folder is to be".to_owned()
+                ("a file is where the folder is to be".to_owned(), REMEDY)
             }
-            _ => format!("the folder cannot be made: {error}"),
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+                (format!("the folder cannot be made: {}", unmade(&error)), "make room, or name another place")
+            }
+            _ => (format!("the folder cannot be made: {}", unmade(&error)), REMEDY),
         };
-        return Err(Diagnostic::in_file(out, what, "name a folder, or a place where one can be made"));
+        return Err(Diagnostic::in_file(out, what, remedy));
     }
     Ok(new)
 }

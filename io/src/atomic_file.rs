@@ -15,7 +15,7 @@ use self::heads::worth;
 pub use self::heads::{
     CSV_HEAD, HTML_HEAD, ITF_HEAD, MAN_HEAD, MCAP_LIBRARY, MCAP_PROFILE, ROS_HEADS, SVG_HEAD,
 };
-use crate::diagnostic::{Diagnostic, Halt};
+use crate::diagnostic::{Diagnostic, Halt, unmade};
 
 mod heads;
 
@@ -405,9 +405,9 @@ fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
         }
         _ => {
             // An error that is met as a part is made goes on with the name of the part, which the user has not given.
-            let error = error.to_string();
-            let error = error.split(" at path ").next().unwrap_or_default();
-            let what = format_args!("it cannot be written: {error}");
+            let why = unmade(error);
+            let why = why.split(" at path ").next().unwrap_or_default();
+            let what = format_args!("it cannot be written: {why}");
             Diagnostic::in_file(path, what, "name a file in a folder that you can write to")
         }
     }
@@ -512,6 +512,7 @@ mod tests {
         let path = Path::new("/sys/file");
         let fault = AtomicFile::new(path, &Replaceable::default()).map(drop).expect_err("a folder of Linux");
         assert!(!fault.to_string().contains(".part"), "{fault}");
+        assert!(fault.what().ends_with(": you may not write there"), "{fault}");
     }
 
     #[cfg(unix)]

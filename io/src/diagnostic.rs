@@ -246,6 +246,19 @@ pub fn unreadable(error: &io::Error) -> String {
     }
 }
 
+/// Why a place takes no file and no folder, in words. The system's own words stand where there are none.
+pub fn unmade(error: &io::Error) -> String {
+    let words = match error.kind() {
+        ErrorKind::NotFound => "the system makes nothing there",
+        ErrorKind::PermissionDenied => "you may not write there",
+        ErrorKind::ReadOnlyFilesystem => "the disk there can only be read",
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "there is no room for it",
+        ErrorKind::InvalidFilename => "its name is longer than the disk takes",
+        _ => return error.to_string(),
+    };
+    words.to_owned()
+}
+
 fn name(file: &Path) -> String {
     one_line(&file.to_string_lossy())
 }

@@ -79,3 +79,19 @@ fn a_failure_that_cannot_be_is_refused() {
         says(&refused(folder, &[&["explore", "open:15x15"], arguments].concat()), &[why]);
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_cannot_be_made_is_told_in_words() {
+    let folder = &folder();
+    let long = "a".repeat(300);
+    for (place, why) in [
+        (&*long, "its name is longer than the disk takes"),
+        ("/proc/found", "the system makes nothing there"),
+        ("/sys/found", "you may not write there"),
+    ] {
+        let said = refused(folder, &["man", "--out", place]);
+        says(&said, &["the folder cannot be made: ", why, "name a folder, or a place where one can be made"]);
+        assert!(!said.contains("os error"), "{said}");
+    }
+}
