@@ -66,8 +66,13 @@ class Mail:
                 yield Move.fault("a message is lost", lost(replace(left, losses=self.losses - 1)))
 
 
-def eventually(id: str, words: str, is_so: Callable[[Any], bool]) -> Demand:
-    """``is_so`` is to be so of a state at some time in every run that is weakly fair."""
+def eventually(
+    id: str, words: str, is_so: Callable[[Any], bool] | Callable[[Any, Sequence[Cell]], bool]
+) -> Demand:
+    """``is_so`` is to be so of a state at some time in every run that is weakly fair.
+
+    Of a rule for robots on cells it is asked of a state and of robots in these cells.
+    """
     return Demand(id, words, "eventually", is_so)
 
 

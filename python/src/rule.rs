@@ -141,13 +141,16 @@ fn found(py: Python<'_>, written: &Arc<RuleScript>, budget: Option<u64>) -> PyRe
     let limits = Bounds { max_walls: written.max_walls, budget_moves: budget, until: Until::Exhausted };
     let questions = Questions::of(written);
     let (demands, covers) = (questions.demands(written), questions.covers(written));
-    let (rule, setting) = (PythonRule(Arc::clone(written)), setting(written, &demands, &covers));
+    let rule = |wanted| PythonRule { written: Arc::clone(written), wanted };
+    let setting = setting(written, &demands, &covers);
     let refused = |refused: &dyn std::fmt::Display| {
         error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size")
     };
     // Of one start and without faults a tree has several demands on endless runs, which states have one by one.
     let wanted: Vec<Promise> = (0..demands.len()).map(Promise).collect();
-    let playing = setting.playing(&rule, &wanted[..wanted.len().min(1)]).map_err(|what| refused(&what))?;
+    let playing = setting
+        .playing(&rule(0..demands.len()), &wanted[..wanted.len().min(1)])
+        .map_err(|what| refused(&what))?;
     let playing = playing.wanting(&wanted);
     let mut tree = Tree::new(playing, &limits).map_err(|what| refused(&what))?;
     while tree.wave() {
@@ -171,7 +174,8 @@ fn found(py: Python<'_>, written: &Arc<RuleScript>, budget: Option<u64>) -> PyRe
         };
         let halted = |halt: Halt| written.script.checked(py).err().unwrap_or_else(|| told(halt));
         let (layout, _) = layout_of(&run).map_err(|problem| halted(problem.into()))?;
-        let (made, report) = stored(written, (&setting, &rule), &layout, demand).map_err(halted)?;
+        let (made, report) =
+            stored(written, (&setting, &rule(demand..demand + 1)), &layout, demand).map_err(halted)?;
         if report.violations.is_empty() {
             return Err(written.script.not_pure(py));
         }

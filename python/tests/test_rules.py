@@ -97,6 +97,42 @@ def test_a_patrol_owes_visits_again_and_again():
         tautline.hunt_rule(Patrol())
 
 
+def test_what_is_to_be_so_at_some_time_is_so_before_a_round_in_it_or_at_the_end():
+    class Patrol(Walker):
+        patrols = True
+        max_walls = 0
+        demands = [
+            tautline.eventually("WALK-8", "it comes to the last cell", lambda state, cells: cells == ((2, 0),)),
+            tautline.eventually("WALK-9", "it is in the first cell", lambda state, cells: cells == ((0, 0),)),
+        ]
+
+    assert tautline.hunt_rule(Patrol()).verdict == "holds"
+    # A wall keeps it from the last cell: it goes back and forth for ever, or stands before it.
+    for wrong, is_endless in [({"max_walls": 1}, True), ({"max_walls": 1, "patrols": False}, False)]:
+        found = tautline.hunt_rule(type("Wrong", (Patrol,), wrong)())
+        assert [example.clause for example in found.counterexamples] == ["WALK-8"]
+        run = found.counterexamples[0].run
+        assert np.asarray(run.layout.east).sum() == 1 and (run.stopped == "endless") == is_endless
+
+    # It was so before the round: a walker that has left the first cell stays in the last one.
+    class Settles(Walker):
+        def step(self, state, cells, blocked):
+            return (1, ".") if state or blocked[0] else (0, "E")
+
+        demands = [Patrol.demands[1], tautline.eventually("WALK-10", "it knows the wall", lambda state, cells: state == 1)]
+
+    assert tautline.hunt_rule(Settles()).verdict == "holds"
+    Settles.demands = [tautline.always("WALK-11", "it moves", lambda moved: moved.tried != "."), *Patrol.demands, *Walker.demands]
+    found = tautline.hunt_rule(Settles())
+    assert {example.clause for example in found.counterexamples} == {"WALK-1", "WALK-8", "WALK-11"}
+    alone = tautline.hunt_rule(type("Alone", (Settles,), {"demands": Walker.demands})()).counterexamples[0]
+    assert [example.run.steps for example in found.counterexamples if example.clause == "WALK-1"] == [alone.run.steps]
+
+    Patrol.demands = [tautline.eventually("WALK-12", "words", lambda state: True)]
+    with pytest.raises(RuleRaised, match="WALK-12"):
+        tautline.hunt_rule(Patrol())
+
+
 def test_a_demand_is_decided_as_if_it_stood_alone():
     class Patrol(Walker):
         patrols = True

@@ -23,6 +23,9 @@ pub(super) const MAX_ROBOTS: usize = 8;
 const MAX_SIDE: i16 = 16;
 const SIZE: &str = "a size of 1 to 16 columns and 1 to 16 rows";
 
+/// The most demands: which of them were met is a bit for each.
+const MAX_DEMANDS: usize = u64::BITS as usize;
+
 /// A hint at what `step` is to return.
 const ANSWER: &str = "return None when the run is over, or a state and None if that is what is known then, else the \
                       next state and a string with one letter of E, S, W, N or . for each robot";
@@ -36,6 +39,8 @@ pub(super) enum When {
     AtTheEnd(Py<PyAny>),
     /// Where a run comes back to where it was.
     NeverEndless,
+    /// There, and at the end of every run that ends, unless it was so before.
+    Eventually(Py<PyAny>),
     /// There, and at the end of every run that ends, for what is owed.
     AgainAndAgain(Py<PyAny>),
 }
@@ -93,6 +98,10 @@ impl RuleScript {
             attribute(rule, "covers", "covers, a list of names and functions of a move")?;
         let demands = demands.iter().map(demand).collect::<PyResult<Vec<Demand>>>()?;
         distinct(py, demands.iter().map(|demand| demand.clause.as_str()))?;
+        if demands.len() > MAX_DEMANDS {
+            let what = format_args!("{} demands", demands.len());
+            return Err(error(py, Kind::Input, what, format_args!("give at most {MAX_DEMANDS}")));
+        }
         if covers.len() > 64 {
             return Err(error(py, Kind::Input, format_args!("{} covers", covers.len()), "give at most 64"));
         }
@@ -162,6 +171,11 @@ impl RuleScript {
         PyTuple::new(py, cells[..self.robots].iter().map(|cell| (cell.x, cell.y)))
     }
 
+    /// A state and the cells of the robots, as a demand of them sees it.
+    fn scene<'py>(&self, py: Python<'py>, state: u32, cells: &Cells) -> PyResult<Bound<'py, PyTuple>> {
+        (self.script.state(py, state), self.cells(py, cells)?).into_pyobject(py)
+    }
+
     /// The number of the rule's state next, and what it does; no steps if the run is over, or if the rule has failed.
     pub(super) fn step(&self, state: u32, cells: &Cells, blocked: WallHits) -> Answer {
         if self.script.is_over() {
@@ -202,7 +216,7 @@ impl RuleScript {
                 let moved = moved.unwrap_or_else(|_| PyTuple::empty(py));
                 !self.script.says(py, demand.clause.as_str(), is_kept, moved)
             }
-            When::AtTheEnd(_) | When::NeverEndless | When::AgainAndAgain(_) => false,
+            When::AtTheEnd(_) | When::NeverEndless | When::Eventually(_) | When::AgainAndAgain(_) => false,
         })
     }
 
@@ -210,13 +224,10 @@ impl RuleScript {
     pub(super) fn is_broken_at_end(&self, demand: usize, state: u32, cells: &Cells) -> bool {
         self.is_broken(demand, |py, demand| match &demand.when {
             When::AtTheEnd(is_kept) => {
-                let end = self
-                    .cells(py, cells)
-                    .and_then(|cells| (self.script.state(py, state), cells).into_pyobject(py));
-                let end = end.unwrap_or_else(|_| PyTuple::empty(py));
+                let end = self.scene(py, state, cells).unwrap_or_else(|_| PyTuple::empty(py));
                 !self.script.says(py, demand.clause.as_str(), is_kept, end)
             }
-            When::Always(_) | When::NeverEndless | When::AgainAndAgain(_) => false,
+            When::Always(_) | When::NeverEndless | When::Eventually(_) | When::AgainAndAgain(_) => false,
         })
     }
 
@@ -227,11 +238,20 @@ impl RuleScript {
         if self.script.is_over() {
             return 0;
         }
-        let owed = |py: Python<'_>| {
-            let scene = (self.script.state(py, state), self.cells(py, cells)?).into_pyobject(py)?;
-            self.script.owed(py, clause.as_str(), asked, scene)
-        };
+        let owed =
+            |py: Python<'_>| self.script.owed(py, clause.as_str(), asked, self.scene(py, state, cells)?);
         Python::attach(|py| owed(py).unwrap_or_else(|failed| self.script.fail(failed)))
+    }
+
+    /// Whether what the demand with this number waits for is so; no if it waits for nothing, or if the rule has failed.
+    pub(super) fn is_met(&self, demand: usize, state: u32, cells: &Cells) -> bool {
+        let Demand { clause, when, .. } = &self.demands[demand];
+        let When::Eventually(is_so) = when else { return false };
+        !self.script.is_over()
+            && Python::attach(|py| {
+                let scene = self.scene(py, state, cells).unwrap_or_else(|_| PyTuple::empty(py));
+                self.script.says(py, clause.as_str(), is_so, scene)
+            })
     }
 
     /// Whether this is so of the demand with this number; no if the rule has failed.
@@ -266,7 +286,8 @@ impl RuleScript {
 
 fn demand(demand: &Bound<'_, PyAny>) -> PyResult<Demand> {
     let py = demand.py();
-    let wanted = "demands made by pytautline.always, at_the_end, never_endless and again_and_again";
+    let wanted =
+        "demands made by pytautline.always, at_the_end, never_endless, eventually and again_and_again";
     let text = |name: &str| attribute_of::<String>("the demand", demand, name, wanted);
     let (id, words, when) = (text("id")?, text("words")?, text("when")?);
     let kept_by: Py<PyAny> = attribute_of("the demand", demand, "kept", wanted)?;
@@ -274,6 +295,7 @@ fn demand(demand: &Bound<'_, PyAny>) -> PyResult<Demand> {
         "always" => When::Always(kept_by),
         "at-the-end" => When::AtTheEnd(kept_by),
         "never-endless" => When::NeverEndless,
+        "eventually" => When::Eventually(kept_by),
         "again-and-again" => When::AgainAndAgain(kept_by),
         _ => {
             let what = format!("a demand is looked at {when:?}");
