@@ -99,6 +99,8 @@ fn team_move(cdr: &mut Cdr<'_>) -> Value {
     let blocked: Vec<usize> = (1..).zip(blocked).filter(|(_, is)| *is).map(|(robot, _)| robot).collect();
     let cells = cdr.list(|cdr| [cdr.u32(), cdr.u32()]);
     let _broken = cdr.list(Cdr::text);
+    let (title, again) = (cdr.text(), cdr.take::<1>() == [1]);
+    assert_eq!((title.as_str(), again), ("", false), "robots that count from 1 have no titles");
     json!({ "move": { "step": step, "kind": kind, "tried": tried, "blocked": blocked, "cells": cells } })
 }
 

@@ -14,8 +14,10 @@ use self::file::{BLUE, Drawing, File, Ink, ORANGE, PURPLE, headed, stamp};
 use self::points::{Points, Rectangle};
 use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_sim::explore::{Joins, Layer, Look, Play, Report, Scene, Setup, Shape, TeamMove, Zone};
-use tautline_sim::trace::StoredMove;
+use tautline_sim::explore::{
+    Joins, Layer, Look, Play, Report, Scene, Setup, Shape, TeamMove, Violation, Zone,
+};
+use tautline_sim::trace::{StoredMove, numbered_from};
 
 /// The points of a map are so many metres wide, of cells of one metre. The first is a post, whose middle is at 0, 0.
 const POINT_M: f64 = 0.5;
@@ -40,7 +42,7 @@ const fn at_ns(step: u32) -> u64 {
 pub fn write(file: &mut AtomicFile, run: &dyn Play) -> Result<(), Halt> {
     let mut recording = Recording::begin(file, run.setup())?;
     let report = run.play(&mut |made| Ok(recording.add(made)?))?;
-    Ok(recording.end(&report)?)
+    Ok(recording.end(&report, run)?)
 }
 
 /// A file in the making.
@@ -57,13 +59,14 @@ struct Recording<'f> {
 impl<'f> Recording<'f> {
     /// Writes the still part, and the start.
     fn begin(file: &'f mut AtomicFile, setup: &Setup) -> Result<Self, Diagnostic> {
-        let facts = [
+        let mut facts = vec![
             ("scheme", setup.scheme.name.to_owned()),
             ("rule", setup.rule.to_string()),
             ("robots", setup.robots.to_string()),
             ("seed", setup.seed.to_string()),
             ("layout", setup.layout.to_string()),
         ];
+        facts.extend(numbered_from(setup.scheme.look).map(|first| ("numbered_from", first.to_string())));
         let (file, starts) = (File::begin(file, &facts)?, setup.starts());
         let known = Points::at_start(&setup.layout, &starts);
         let mut recording =
@@ -99,6 +102,8 @@ impl<'f> Recording<'f> {
             cdr.i32(cell.y.into());
         });
         message.list(made.broken, |cdr, clause| cdr.string(clause.as_str()));
+        message.string(stored.title());
+        message.bool(stored.is_again());
         self.send("/team_move", "tautline/TeamMove", made.step, &message.into_bytes())?;
         let face = |(&cell, &step): (&Cell, &Step)| match step {
             Step::Cross(side) => (cell, Some(side)),
@@ -168,8 +173,8 @@ impl<'f> Recording<'f> {
         self.file.marker("/links", at_ns(step), &drawing, &ends)
     }
 
-    /// Writes the outcome of the run.
-    fn end(mut self, report: &Report) -> Result<(), Diagnostic> {
+    /// Writes the outcome of the run, and in words the demands of a rule of one's own that it breaks.
+    fn end(mut self, report: &Report, run: &dyn Play) -> Result<(), Diagnostic> {
         let mut message = headed(at_ns(report.steps));
         // The word that the trace has for it.
         let stopped = serde_json::to_value(report.stopped).unwrap_or_default();
@@ -182,6 +187,15 @@ impl<'f> Recording<'f> {
             cdr.u32(violation.step);
         });
         self.send("/end", "tautline/End", report.steps, &message.into_bytes())?;
+        if numbered_from(self.look).is_some() {
+            let demand = |violation: &Violation| {
+                Some((violation.clause.as_str(), run.sentence(violation.clause)?.to_owned()))
+            };
+            let demands: Vec<_> = report.violations.iter().filter_map(demand).collect();
+            if !demands.is_empty() {
+                self.file.note("tautline demands", &demands)?;
+            }
+        }
         self.file.end()
     }
 }

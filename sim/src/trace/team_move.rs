@@ -66,6 +66,16 @@ impl StoredMove {
         &self.tried
     }
 
+    /// A sentence about what the steps cannot show, of a rule of one's own; empty where there is nothing to say.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Whether it is one of those that come again and again.
+    pub const fn is_again(&self) -> bool {
+        self.again
+    }
+
     /// The team move that it tells of robots in the cells `before`, of which the first has this number.
     ///
     /// # Errors

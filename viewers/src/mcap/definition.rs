@@ -36,7 +36,7 @@ const TYPES: &[Type] = &[
     (
         "tautline/TeamMove",
         "std_msgs/Header header\nuint32 step\nstring kind\nstring tried\nbool[] blocked\n\
-         tautline/Cell[] cells\nstring[] broken\n",
+         tautline/Cell[] cells\nstring[] broken\nstring title\nbool again\n",
     ),
     ("tautline/Cell", "int32 column\nint32 row\n"),
     ("tautline/Line", "std_msgs/Header header\nstring json\n"),

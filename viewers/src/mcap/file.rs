@@ -32,6 +32,12 @@ fn unwritten(error: McapError) -> Diagnostic {
     Diagnostic::usage(format_args!("the MCAP file cannot be written: {error}"), "store a shorter run")
 }
 
+/// A record with these facts.
+fn record(name: &str, facts: &[(&str, String)]) -> Metadata {
+    let metadata = facts.iter().map(|(name, fact)| ((*name).to_owned(), fact.clone())).collect();
+    Metadata { name: name.to_owned(), metadata }
+}
+
 /// A file in the making.
 pub(crate) struct File<'f> {
     writer: Writer<NoSeek<&'f mut AtomicFile>>,
@@ -48,9 +54,13 @@ impl<'f> File<'f> {
         let options = WriteOptions::new().profile(MCAP_PROFILE).library(MCAP_LIBRARY);
         let options = options.compression(None).disable_seeking(true);
         let mut writer = options.create(NoSeek::new(file)).map_err(unwritten)?;
-        let metadata = facts.iter().map(|(name, fact)| ((*name).to_owned(), fact.clone())).collect();
-        writer.write_metadata(&Metadata { name: "tautline".to_owned(), metadata }).map_err(unwritten)?;
+        writer.write_metadata(&record("tautline", facts)).map_err(unwritten)?;
         Ok(Self { writer, channels: BTreeMap::new() })
+    }
+
+    /// Adds a record with more facts.
+    pub(crate) fn note(&mut self, name: &str, facts: &[(&str, String)]) -> Result<(), Diagnostic> {
+        self.writer.write_metadata(&record(name, facts)).map_err(unwritten)
     }
 
     /// Adds a message of the type `kind`, so many nanoseconds after the start.
