@@ -120,6 +120,7 @@ fn told(path: &Path, place: usize) -> String {
     let mut shown = String::new();
     page::write(&mut shown, &read, &report, &(1..=report.steps)).expect("a run");
     assert!(shown.contains(run.words.demand) && shown.contains("\"numbered_from\":0"));
+    assert!(shown.contains(r#""what":"cells visited","visits":true}"#), "no robot is to explore");
     let mut titles = run.words.titles.iter().filter(|title| !title.is_empty());
     assert!(titles.all(|title| shown.contains(&format!("\"title\":\"{title}\""))));
     let moves = fs::read_to_string(path).expect("a file");

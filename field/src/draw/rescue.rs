@@ -90,7 +90,7 @@ fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Repo
         numbered_from: None,
         first: 0,
         of: report.log.len() as u32,
-        share: Share { of: events, what: "events served" },
+        share: Share { of: events, what: "events served", visits: false },
         board: Board::Metres {
             size: [field.area().width_m(), field.area().height_m()].map(metres),
             obstacles: field.obstacles().iter().map(|&of| <[f64; 4]>::from(of).map(metres)).collect(),

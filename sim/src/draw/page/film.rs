@@ -64,14 +64,17 @@ pub struct Share {
     pub of: u32,
     /// The noun of what is counted.
     pub what: &'static str,
+    /// Whether cells count as robots visit them, where no robot is to explore.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub visits: bool,
 }
 
 impl Share {
     /// The cells that are explored; of a team that is not to explore those where robots were.
     pub(super) fn of(report: &Report, layout: &Layout) -> Self {
         match report.cells {
-            0 => Self { of: layout.free_cells() as u32, what: "cells visited" },
-            cells => Self { of: cells, what: "cells explored" },
+            0 => Self { of: layout.free_cells() as u32, what: "cells visited", visits: true },
+            cells => Self { of: cells, what: "cells explored", visits: false },
         }
     }
 }

@@ -287,7 +287,7 @@ function places(i, time) {
 // ---- What is shown, with its legend
 
 // Where no robot is to explore, cells are those that robots have visited, and there is no frontier.
-const explores = film.share.what !== "cells visited";
+const explores = !film.share.visits;
 const BUILT_IN = inCells ? [
   { name: "what is", about: "walls and blocked cells, known or not", keys: [["wall", "wall"], ["blocked", "blocked"]] },
   { name: "what the team knows", about: `${explores ? "explored cells" : "cells where robots were"}, and walls that robots met or saw`, keys: [["explored", explores ? "explored" : "visited"], ["known", "known wall"]] },
