@@ -127,12 +127,23 @@ impl Judge {
         let misplaced = given.ground().map(|ground| misplaced(&tracks, &limits, given.grid(), ground));
         let is_other = misplaced.is_some_and(|misplaced| is_other_map(misplaced, &tracks));
         let mut verdicts = Vec::new();
-        for &(id, kind) in &self.clauses {
+        for (place, &(id, kind)) in self.clauses.iter().enumerate() {
+            if self.clauses[..place].iter().any(|(before, _)| *before == id) {
+                continue;
+            }
             let demand = self.demand(id, kind, &given, &tracks, &limits, &log)?;
+            let has_base = matches!(kind, Kind::Crowd { is_base_free: true, .. });
+            let astray = if matches!(kind, Kind::Visited) { given.astray(&tracks, &limits) } else { None };
             let verdict = if is_other {
                 Verdict::Unknown(Doubt::OtherMap)
+            } else if has_base && given.is_base_in_doubt(&tracks, &limits) {
+                Verdict::Unknown(Doubt::Base)
             } else {
                 judge(&tracks, &limits, &demand).map_err(|much| self.too_much(id, &much.to_string()))?
+            };
+            let verdict = match (verdict, astray) {
+                (Verdict::Kept, Some(robot)) => Verdict::Unknown(Doubt::Astray(robot)),
+                (verdict, _) => verdict,
             };
             verdicts.push((id, demand, verdict));
         }
@@ -247,7 +258,7 @@ impl Judge {
                 given.check_cells(id, limits)?;
                 Demand::Visited {
                     grid: given.grid(),
-                    cells: given.reachable(tracks),
+                    cells: given.reachable(tracks, limits),
                     is_whole: log.cut.is_none(),
                 }
             }
@@ -272,7 +283,7 @@ impl Judge {
         let what = format!(
             "{id} leaves out the base, where robot 1 is first, and the log has no position of robot 1"
         );
-        Diagnostic::in_file(&self.log, what, "say where the base is with --map and --base")
+        Diagnostic::in_file(&self.log, what, "say where the base is with --base")
     }
 
     fn too_much(&self, id: &str, what: &str) -> Diagnostic {

@@ -144,6 +144,7 @@ fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
         ("field.csv --clauses CHAIN-2 --tolerance 0.5", "give a --tolerance below half a --cell"),
         ("field.csv --clauses KIT-3 --tolerance 3", "give a --tolerance below --least"),
         ("field.csv --clauses CHAIN-2 --map field.csv", "field.csv:1"),
+        ("field.csv --clauses PACK-2 --base 1,1", "--base has no effect"),
         ("field.csv --clauses CHAIN-2 --map open:9x9 --base 9,9", "the base 9,9 is outside"),
         ("field.csv --clauses PACK-2 --origin=NaN,0", "write metres from -1000000 to 1000000"),
         ("field.csv --clauses PACK-2 --origin 0,1e12", "write metres from -1000000 to 1000000"),
@@ -161,6 +162,69 @@ fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
         );
     }
     assert!(read(folder, "field.csv").starts_with("time,"));
+}
+
+#[test]
+fn robots_at_one_point_of_a_border_are_not_said_to_be_in_two_cells() {
+    let folder = &folder();
+    let log = |name: &str, robots: &[&str]| {
+        let rows = ["0", "0.5"]
+            .iter()
+            .flat_map(|time| robots.iter().map(move |robot| format!("{time},{robot},1,0.5\n")));
+        write(folder, name, "time,robot,x,y\n".to_owned() + &rows.collect::<String>());
+    };
+    log("two.csv", &["a", "b"]);
+    log("three.csv", &["a", "b", "c"]);
+    let (told, _) = judged(folder, "two.csv --clauses PACK-2,pack-2", 3);
+    let why =
+        "PACK-2: unknown: at 0 s robots 1 (a) and 2 (b) may be in the cell (0,0), at whose border they are";
+    assert_eq!(told.matches(why).count(), 1, "{told}");
+    let (told, _) = judged(folder, "three.csv --clauses PACK-2", 1);
+    says(&told, &["3 (c) are in the cells (0,0) and (1,0), at most 2 may be (line 4; at 2 stamps in all)"]);
+    let (told, _) = judged(folder, "three.csv --clauses CHAIN-2", 3);
+    says(
+        &told,
+        &["CHAIN-2: unknown: the base is the cell in which robot 1 is first, and it is at the border"],
+    );
+    let (told, _) = judged(folder, "three.csv --clauses CHAIN-2 --base 1,0", 3);
+    says(&told, &["CHAIN-2: unknown: at 0 s robots 1 (a) and 2 (b) and 3 (c) may be in the cell (0,0)"]);
+}
+
+/// Without a map its rows are counted northwards, as those of the log are.
+#[test]
+fn a_base_needs_no_map() {
+    let folder = &folder();
+    let rows = ["a", "b", "c"].map(|robot| format!("0,{robot},1.5,2.5\n"));
+    write(folder, "base.csv", "time,robot,x,y\n".to_owned() + &rows.concat());
+    judged(folder, "base.csv --clauses CHAIN-2 --base 1,2", 0);
+    let (told, _) = judged(folder, "base.csv --clauses CHAIN-2 --base 1,1", 1);
+    says(&told, &["are in the cell (1,2), at most 2 may be"]);
+    judged(folder, "base.csv --clauses CHAIN-2 --base 1,1 --map open:3x4", 0);
+}
+
+#[test]
+fn a_log_that_is_cut_keeps_nothing() {
+    let folder = &with_log();
+    let text = read(folder, "field.csv");
+    // Ten seconds of it: nothing is broken before 20 s.
+    let end = text.find("10,ugv3").expect("a line") + 6;
+    write(folder, "cut.csv", &text[..end]);
+    let (told, _) = judged(folder, "cut.csv --clauses CHAIN-3,PACK-2", 3);
+    let why = "unknown: the log is cut, and the run may have gone on";
+    says(&told, &["the log is cut in line", &format!("CHAIN-3: {why}"), &format!("PACK-2: {why}")]);
+}
+
+/// The east room is a robot's own; its first place is a finger's breadth within the wall.
+#[test]
+fn a_robot_that_is_first_within_the_tolerance_of_a_cell_has_to_visit_what_it_can_reach() {
+    let folder = &folder();
+    write(folder, "rooms.map", "type octile\nheight 1\nwidth 4\nmap\n.@..\n");
+    write(folder, "rooms.csv", "time,robot,x,y\n0,a,0.5,0.5\n0,b,1.98,0.5\n1,a,0.5,0.5\n1,b,2.5,0.5\n");
+    let (told, _) = judged(folder, "rooms.csv --clauses FRONTIER-1 --map rooms.map", 1);
+    says(&told, &["nobody was in 1 cell, the first is (3,0)"]);
+    write(folder, "wall.csv", "time,robot,x,y\n0,a,0.5,0.5\n0,b,1.5,0.5\n1,a,0.5,0.5\n1,b,2.5,0.5\n");
+    let (told, _) = judged(folder, "wall.csv --clauses FRONTIER-1 --map rooms.map", 3);
+    says(&told, &["FRONTIER-1: unknown: robot 2 (b) is not first in a free cell of the map"]);
 }
 
 #[test]

@@ -23,6 +23,16 @@ impl Grid {
         [[along(0, -tolerance_mm), along(1, -tolerance_mm)], [along(0, tolerance_mm), along(1, tolerance_mm)]]
     }
 
+    /// The rectangle of cells that a robot at this place may be in: its lowest and its highest column and row.
+    pub(super) fn within(self, place: [f64; 2], tolerance_mm: u32) -> [[i32; 2]; 2] {
+        self.around(place, tolerance_mm.into())
+    }
+
+    /// The cells that a robot at this place may be in.
+    pub fn touched(self, place: [f64; 2], tolerance_mm: u32) -> impl Iterator<Item = [i32; 2]> {
+        cells_of(self.within(place, tolerance_mm))
+    }
+
     /// The cell in which a robot at this place is without doubt.
     pub fn surely(self, place: [f64; 2], tolerance_mm: u32) -> Option<[i32; 2]> {
         let [low, high] = self.around(place, tolerance_mm.into());
@@ -35,6 +45,11 @@ impl Grid {
             |axis: usize, cells: f64| self.origin_mm[axis] + self.cell_mm * (f64::from(cell[axis]) + cells);
         [[corner(0, 0.0) - by_mm, corner(1, 0.0) - by_mm], [corner(0, 1.0) + by_mm, corner(1, 1.0) + by_mm]]
     }
+}
+
+/// The cells of a rectangle, of which these are the lowest and the highest column and row.
+pub(super) fn cells_of([low, high]: [[i32; 2]; 2]) -> impl Iterator<Item = [i32; 2]> {
+    (low[1]..=high[1]).flat_map(move |row| (low[0]..=high[0]).map(move |column| [column, row]))
 }
 
 /// A map of cells.
@@ -64,16 +79,12 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
         let counted = counted.get_or_insert((0, place));
         *counted = (counted.0 + 1, counted.1.min(place));
     };
-    let tolerance = f64::from(limits.tolerance_mm);
     let (mut all, mut milli, mut cells) = (0_usize, 0_usize, BTreeSet::new());
     for track in &tracks.robots {
         let mut before: Option<([i32; 2], i64)> = None;
         for sample in track {
             let place = [sample.x_mm, sample.y_mm].map(f64::from);
-            let [low, high] = grid.around(place, tolerance);
-            let mut touched =
-                (low[1]..=high[1]).flat_map(|row| (low[0]..=high[0]).map(move |column| [column, row]));
-            if touched.all(|cell| !ground.is_free(cell)) {
+            if grid.touched(place, limits.tolerance_mm).all(|cell| !ground.is_free(cell)) {
                 count(&mut found.off, sample.place);
             }
             all += 1;

@@ -2,9 +2,10 @@
 //! stamp lies, and which pairs are too far, too near or in one cell. It keeps nothing from one stamp to the next but
 //! what a clause asks for: whether a robot has ever left its start.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::ground::{Grid, MOST_COMPARISONS, TooMuch, visits};
+use super::ground::{Grid, MOST_COMPARISONS, TooMuch, cells_of, visits};
 use super::{Limits, Silence, Tracks};
 
 /// The demand of a clause, with its lengths.
@@ -61,7 +62,7 @@ pub enum Group {
 /// The answer of a log to a clause.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Verdict {
-    /// At no stamp it is broken, and no robot was silent for longer than the gap.
+    /// At no stamp it is broken, no robot was silent for longer than the gap, and the log is whole.
     Kept,
     /// It is broken, whatever else happened.
     Broken(Breach),
@@ -76,11 +77,12 @@ pub struct Breach {
     pub at_us: i64,
     /// The robots that break it, from 0.
     pub robots: Vec<u32>,
-    /// The distance in millimetres, the robots in the cell, or the cells that nobody visited.
+    /// The distance in millimetres, the robots in the cells, or the cells that nobody visited.
     pub measured: u32,
-    /// The most or the least that the clause allows, without the tolerance.
+    /// The most or the least that the clause allows in these cells, without the tolerance.
     pub allowed: u32,
-    /// The cells that the clause speaks of: the one with too many robots, or all that nobody visited.
+    /// The cells that the clause speaks of: the one with too many robots, or those at whose common border too many for
+    /// all of them are, or all that nobody visited.
     pub cells: Vec<[i32; 2]>,
     /// The last line or message of the log that has part in it.
     pub place: u32,
@@ -101,12 +103,18 @@ pub enum Doubt {
     Leaving(i64, [u32; 2]),
     /// Within the tolerance, this cell may have been visited or not; in all so many.
     Cell([i32; 2], usize),
+    /// At this stamp more robots than allowed may be in this cell, at whose border one of them is.
+    Border(i64, [i32; 2], Vec<u32>),
+    /// The first place of robot 1, whose cell is the base, is at the border of a cell.
+    Base,
     /// The log ends in the midst.
     Cut,
     /// More than half of the positions are not on the map: it is another one, or has other units.
     OtherMap,
     /// No robot is first in a free cell of the map: the clause asks for nothing.
     Nowhere,
+    /// This robot is not first in a free cell of the map: which cells it can reach is not known.
+    Astray(u32),
     /// More than half of the positions were not taken.
     Refused,
     /// At this stamp these robots would break the clause if one of them stood still before its first position or behind
@@ -121,6 +129,9 @@ struct Finding {
     measured: u32,
     cells: Vec<[i32; 2]>,
 }
+
+/// Cells that a robot may be in, where the tolerance is less than half a cell.
+const MOST_TOUCHED: usize = 4;
 
 fn apart(one: [f64; 2], other: [f64; 2]) -> f64 {
     let [across, up] = [0, 1].map(|axis| one[axis] - other[axis]);
@@ -197,24 +208,81 @@ fn leaving(tracks: &Tracks, is_off: impl Fn(f64) -> bool) -> Vec<Option<i64>> {
     tracks.robots.iter().map(left).collect()
 }
 
-/// The cell with the most robots in it, if they are more than allowed.
-fn crowded(
-    moment: &Moment<'_>,
+/// The clause of cells with at most so many robots each.
+#[derive(Clone, Copy)]
+struct Crowding {
     grid: Grid,
     tolerance_mm: u32,
-    most: u32,
+    most: usize,
     base: Option<[i32; 2]>,
-) -> Option<Finding> {
-    let mut within: BTreeMap<[i32; 2], Vec<u32>> = BTreeMap::new();
-    for robot in moment.robots() {
-        if let Some(cell) = moment.at(robot).and_then(|place| grid.surely(place, tolerance_mm)) {
-            within.entry(cell).or_default().push(robot);
+}
+
+impl Crowding {
+    /// The cell with the most robots in it, if they are more than allowed; or else cells with a common border at which
+    /// more robots are than all of them may have, whichever robot is in which.
+    fn surely(self, placed: &[(u32, [f64; 2])]) -> Option<Finding> {
+        let mut within: BTreeMap<[[i32; 2]; 2], Vec<u32>> = BTreeMap::new();
+        for &(robot, place) in placed {
+            within.entry(self.grid.within(place, self.tolerance_mm)).or_default().push(robot);
         }
+        let crowd = |&cells: &[[i32; 2]; 2]| {
+            let area: Vec<_> = cells_of(cells).take(MOST_TOUCHED + 1).collect();
+            if area.len() > MOST_TOUCHED || area.iter().any(|cell| Some(*cell) == self.base) {
+                return None;
+            }
+            let parts = area.iter().flat_map(|&low| area.iter().map(move |&high| [low, high]));
+            let mut robots: Vec<u32> =
+                parts.filter_map(|part| within.get(&part)).flatten().copied().collect();
+            robots.sort_unstable();
+            (robots.len() > self.most * area.len()).then_some((area, robots))
+        };
+        let crowds = within.keys().filter_map(crowd);
+        let (cells, robots) = crowds.max_by_key(|(area, robots)| (Reverse(area.len()), robots.len()))?;
+        Some(Finding { measured: robots.len() as u32, robots, cells })
     }
-    let crowds =
-        within.into_iter().filter(|(cell, robots)| Some(*cell) != base && robots.len() > most as usize);
-    let (cell, robots) = crowds.max_by_key(|(_, robots)| robots.len())?;
-    Some(Finding { measured: robots.len() as u32, robots, cells: vec![cell] })
+
+    /// A cell with a robot at its border that more robots than allowed may be in: the positions themselves are, or
+    /// those robots may be at one point.
+    fn perhaps(self, placed: &[(u32, [f64; 2])]) -> Option<([i32; 2], Vec<u32>)> {
+        let mut touching: BTreeMap<[i32; 2], Vec<usize>> = BTreeMap::new();
+        for (number, &(_, place)) in placed.iter().enumerate() {
+            for cell in self.grid.touched(place, self.tolerance_mm) {
+                touching.entry(cell).or_default().push(number);
+            }
+        }
+        touching.retain(|cell, near| near.len() > self.most && Some(*cell) != self.base);
+        touching.into_iter().find_map(|(cell, near)| {
+            let inside = |&number: &usize| self.grid.surely(placed[number].1, 0) == Some(cell);
+            let inside: Vec<usize> = near.iter().copied().filter(inside).collect();
+            let crowd = if inside.len() > self.most { Some(inside) } else { self.meeting(placed, &near) };
+            Some((cell, crowd?.into_iter().map(|number| placed[number].0).collect()))
+        })
+    }
+
+    /// More robots than allowed, of these, who may be where one of them is that is at a border.
+    fn meeting(self, placed: &[(u32, [f64; 2])], near: &[usize]) -> Option<Vec<usize>> {
+        // The error of a distance is that of both its ends.
+        let reach_mm = f64::from(self.tolerance_mm) * 2.0;
+        let square = |place: [f64; 2]| place.map(|along| (along / reach_mm).floor() as i64);
+        let mut squares: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+        for &number in near {
+            squares.entry(square(placed[number].1)).or_default().push(number);
+        }
+        let is_unsure = |number: &&usize| self.grid.surely(placed[**number].1, self.tolerance_mm).is_none();
+        near.iter().filter(is_unsure).find_map(|&number| {
+            let place = placed[number].1;
+            let [column, row] = square(place);
+            let around = (-1..=1).flat_map(|up| (-1..=1).map(move |across| [column + across, row + up]));
+            let is_met = |&other: &usize| {
+                [0, 1].into_iter().all(|axis| (placed[other].1[axis] - place[axis]).abs() <= reach_mm)
+            };
+            // The first of a square are enough: it has no more than may be there, or all of them meet.
+            let first = |square| squares.get(&square).into_iter().flatten().take(self.most + 1);
+            let mut met: Vec<usize> = around.flat_map(first).copied().filter(is_met).collect();
+            met.sort_unstable();
+            (met.len() > self.most).then_some(met)
+        })
+    }
 }
 
 /// Judges a clause.
@@ -252,10 +320,11 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         return Ok(Verdict::Broken(breach));
     }
     let ending = || {
-        let Breach { at_us, robots, .. } = look((tracks, &stamps), limits, demand, true).first?;
-        Some(Doubt::Ending(at_us, robots))
+        let Seen { first, in_doubt, .. } = look((tracks, &stamps), limits, demand, true);
+        first.map(|Breach { at_us, robots, .. }| Doubt::Ending(at_us, robots)).or(in_doubt)
     };
-    Ok(in_doubt.or(doubt).or_else(ending).map_or(Verdict::Kept, Verdict::Unknown))
+    let cut = || tracks.is_cut().then_some(Doubt::Cut);
+    Ok(in_doubt.or(doubt).or_else(ending).or_else(cut).map_or(Verdict::Kept, Verdict::Unknown))
 }
 
 /// The findings in a log.
@@ -327,7 +396,18 @@ fn look(
             let left = near.into_iter().filter(|(robots, _)| robots.iter().all(|&robot| has(&left, robot)));
             left.min_by(|a, b| a.1.total_cmp(&b.1)).map(pair)
         }
-        Demand::Crowd { grid, most, base } => crowded(moment, *grid, limits.tolerance_mm, *most, *base),
+        Demand::Crowd { grid, most, base } => {
+            let tolerance_mm = limits.tolerance_mm;
+            let crowding = Crowding { grid: *grid, tolerance_mm, most: *most as usize, base: *base };
+            let placed = moment.robots().filter_map(|robot| Some((robot, moment.at(robot)?)));
+            let placed: Vec<_> = placed.collect();
+            let surely = crowding.surely(&placed);
+            if surely.is_none() && in_doubt.is_none() {
+                let perhaps = crowding.perhaps(&placed);
+                in_doubt = perhaps.map(|(cell, robots)| Doubt::Border(moment.at_us, cell, robots));
+            }
+            surely
+        }
         Demand::Visited { .. } => None,
     };
     let mut first: Option<Breach> = None;
@@ -336,18 +416,18 @@ fn look(
         let Some(Finding { robots, measured, cells }) = found(&moment) else { continue };
         let place = fresh.iter().filter(|one| robots.binary_search(&one.1).is_ok()).map(|one| one.2).max();
         let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
-        let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);
+        let (at_us, allowed, moments) = (moment.at_us, allowed(demand, cells.len()), 0);
         first.get_or_insert(Breach { at_us, robots, measured, allowed, cells, place, moments }).moments += 1;
     }
     Seen { first, parted, in_doubt }
 }
 
-/// The number that a demand allows.
-fn allowed(demand: &Demand) -> u32 {
+/// The number that a demand allows, in so many cells.
+fn allowed(demand: &Demand, cells: usize) -> u32 {
     match demand {
         Demand::Neighbours { range_mm } | Demand::Joined { range_mm, .. } => *range_mm,
         Demand::Apart { least_mm } => *least_mm,
-        Demand::Crowd { most, .. } => *most,
+        Demand::Crowd { most, .. } => *most * cells as u32,
         Demand::Visited { .. } => 0,
     }
 }

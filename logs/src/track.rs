@@ -49,6 +49,7 @@ pub struct Tracks {
     /// The first stamp and the last one.
     span_us: [i64; 2],
     refused: Refusals,
+    is_cut: bool,
 }
 
 fn count(counted: &mut Option<(u32, u32)>, place: u32) {
@@ -101,7 +102,7 @@ impl Tracks {
         }
         let all = || robots.iter().flatten().map(|sample| sample.at_us);
         let span_us = [all().min().unwrap_or(0), all().max().unwrap_or(0)];
-        Self { robots, gap_us: limits.gap_us, span_us, refused }
+        Self { robots, gap_us: limits.gap_us, span_us, refused, is_cut: log.cut.is_some() }
     }
 
     /// How many robots there are, silent ones among them.
@@ -122,6 +123,11 @@ impl Tracks {
     /// The positions that were not taken.
     pub const fn refused(&self) -> Refusals {
         self.refused
+    }
+
+    /// Whether the log ends in the midst.
+    pub const fn is_cut(&self) -> bool {
+        self.is_cut
     }
 
     /// The first stamp and the last one.

@@ -75,7 +75,21 @@ fn cases() -> Vec<(&'static str, &'static str, Demand, Result<i64, bool>)> {
         ("two in a cell", "0 500 1500 1200", CHAIN_2, kept),
         ("three in the base", "0 500 500 500", CHAIN_2, kept),
         ("two in a cell of one", "0 500 500", FRONTIER_2, Ok(0)),
-        ("at the border of a cell", "0 500 950", FRONTIER_2, kept),
+        ("in one cell or beside it", "0 500 950", FRONTIER_2, unknown),
+        ("in two cells, or in one within the tolerance", "0 500 1050", FRONTIER_2, kept),
+        ("at one point of a border", "0 1000 1000", FRONTIER_2, unknown),
+        ("in two cells, or at one point", "0 950 1050", FRONTIER_2, unknown),
+        ("three at one point of a border", "0 1000 1000 1000", FRONTIER_2, Ok(0)),
+        ("one behind the other over a border", "0 500 1500; 5 990 1990; 9 1500 2500", FRONTIER_2, kept),
+        (
+            "at one point of a border, one before the other has a position",
+            "0 - 9000; 5 2000 2000",
+            FRONTIER_2,
+            unknown,
+        ),
+        ("three at one point of a border of cells of two", "0 500 2000 2000 2000", CHAIN_2, unknown),
+        ("five at one point of a border of cells of two", "0 500 2000 2000 2000 2000 2000", CHAIN_2, Ok(0)),
+        ("five at a border of the base", "0 1000 1000 1000 1000 1000", CHAIN_2, unknown),
         ("nothing to be visited", "0 500", row(&[], true), unknown),
         ("all visited", "0 500; 9 2500", row(&[[0, 0], [1, 0], [2, 0]], true), kept),
         ("one not visited", "0 500; 9 1500", row(&[[0, 0], [1, 0], [2, 0]], true), Ok(9)),
@@ -201,6 +215,37 @@ fn of_several_breaches_at_once_the_worst_is_told() {
         (vec![], 2, vec![[2, 0], [3, 0]]),
         "both cells are counted and named"
     );
+}
+
+#[test]
+fn a_log_that_is_cut_is_kept_by_no_clause_that_a_later_position_can_break() {
+    let log = |rest: &str| {
+        let log =
+            read(format!("time,robot,x,y\n0,a,0.5,0.5\n0,b,1.5,0.5\n{rest}").as_bytes()).expect("a log");
+        Tracks::new(&log, &Numbers::natural(&log.names), &LIMITS)
+    };
+    let told = |tracks: &Tracks, demand: &Demand| judge(tracks, &LIMITS, demand).expect("few");
+    for demand in [RANGE, JOINED, CHAIN_2, FRONTIER_2] {
+        assert_eq!(told(&log("0.5,a,0.5,0.5\n"), &demand), Verdict::Kept, "{demand:?}");
+        assert_eq!(told(&log("0.5,a,0."), &demand), Verdict::Unknown(Doubt::Cut), "{demand:?}");
+    }
+    assert_eq!(short(told(&log("0,c,9,0.5\n0.5,a,0."), &RANGE)), Ok(0), "what is broken stays so");
+    let visited = row(&[[0, 0], [1, 0]], false);
+    assert_eq!(told(&log("0.5,a,0."), &visited), Verdict::Kept, "a cell that was visited stays so");
+}
+
+#[test]
+fn a_doubt_at_a_border_says_when_who_and_which_cell() {
+    let at_a_point = tracks("0 500 2500; 5 1000 1000", &LIMITS);
+    let verdict = judge(&at_a_point, &LIMITS, &FRONTIER_2);
+    assert_eq!(verdict, Ok(Verdict::Unknown(Doubt::Border(500_000, [0, 0], vec![0, 1]))));
+    let three = tracks("0 1000 1000 1000", &LIMITS);
+    let Ok(Verdict::Broken(Breach { robots, measured, allowed, cells, .. })) =
+        judge(&three, &LIMITS, &FRONTIER_2)
+    else {
+        panic!("two cells have three robots")
+    };
+    assert_eq!((robots, measured, allowed, cells), (vec![0, 1, 2], 3, 2, vec![[0, 0], [1, 0]]));
 }
 
 #[test]

@@ -36,9 +36,9 @@ pub(super) struct MapArgs {
     /// The corner of the cells in metres: the lower left one of the map. Without it 0,0, or what a ROS map says.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = corner)]
     origin: Option<Metres<2>>,
-    /// The cell of the base for CHAIN-2, as the map counts cells. Without it that of the map, or the one in which
-    /// robot 1 is first.
-    #[arg(long, value_name = "X,Y", requires = "map")]
+    /// The cell of the base for CHAIN-2, as the map counts cells; without a map columns east and rows north of
+    /// --origin, from 0. Without it that of the map, or the one in which robot 1 is first.
+    #[arg(long, value_name = "X,Y")]
     base: Option<CellArg>,
 }
 
@@ -153,10 +153,10 @@ impl LogMap {
         Err(Diagnostic::usage(what, "give a --tolerance below half a --cell"))
     }
 
-    /// The cell of the grid.
+    /// The cell of the grid: without a map it is counted as there.
     fn northward(&self, cell: Cell) -> [i32; 2] {
-        let rows = self.layout.as_ref().map_or(0, Layout::height);
-        [cell.x.into(), i32::from(rows) - 1 - i32::from(cell.y)]
+        let row = i32::from(cell.y);
+        [cell.x.into(), self.layout.as_ref().map_or(row, |layout| i32::from(layout.height()) - 1 - row)]
     }
 
     /// The cell of the map, or as far as its numbers go.
@@ -179,21 +179,45 @@ impl LogMap {
         }
     }
 
-    /// The cell in which each robot is first, if the log has a position of it.
-    fn starts(&self, tracks: &Tracks) -> impl Iterator<Item = Option<[i32; 2]>> {
-        tracks.starts().map(|place| self.grid.surely(place?, 0))
-    }
-
     /// The base, in the grid.
     pub(super) fn base(&self, tracks: &Tracks) -> Option<[i32; 2]> {
-        self.base.map(|base| self.northward(base)).or_else(|| self.starts(tracks).next()?)
+        let first = || self.grid.surely(tracks.starts().next()??, 0);
+        self.base.map(|base| self.northward(base)).or_else(first)
+    }
+
+    /// Whether the base is where robot 1 is first, and that is at the border of a cell.
+    pub(super) fn is_base_in_doubt(&self, tracks: &Tracks, limits: &Limits) -> bool {
+        let first = tracks.starts().next().flatten();
+        self.base.is_none()
+            && first.is_some_and(|place| self.grid.surely(place, limits.tolerance_mm).is_none())
+    }
+
+    /// The free cells of the map in which each robot may be first, if the log has a position of it: the one of the
+    /// position itself, or, if that is blocked, those within the tolerance.
+    fn starts(&self, tracks: &Tracks, limits: &Limits) -> impl Iterator<Item = Option<Vec<Cell>>> {
+        let is_free = |cell: &Cell| self.layout.as_ref().is_some_and(|layout| layout.is_free(*cell));
+        let free = move |place: [f64; 2], tolerance_mm: u32| -> Vec<Cell> {
+            let touched = self.grid.touched(place, tolerance_mm);
+            touched.filter_map(|cell| self.southward(cell)).filter(is_free).collect()
+        };
+        let tolerance_mm = limits.tolerance_mm;
+        tracks.starts().map(move |place| {
+            let place = place?;
+            let within = free(place, 0);
+            Some(if within.is_empty() { free(place, tolerance_mm) } else { within })
+        })
+    }
+
+    /// A robot that is not first in a free cell of the map.
+    pub(super) fn astray(&self, tracks: &Tracks, limits: &Limits) -> Option<u32> {
+        let mut starts = (0..).zip(self.starts(tracks, limits));
+        starts.find_map(|(robot, cells)| cells.is_some_and(|cells| cells.is_empty()).then_some(robot))
     }
 
     /// The cells that robots can reach from where they are first, in the grid.
-    pub(super) fn reachable(&self, tracks: &Tracks) -> Vec<[i32; 2]> {
+    pub(super) fn reachable(&self, tracks: &Tracks, limits: &Limits) -> Vec<[i32; 2]> {
         let Some(layout) = &self.layout else { return Vec::new() };
-        let starts = self.starts(tracks).flatten().filter_map(|cell| self.southward(cell));
-        let starts: Vec<Cell> = starts.filter(|&cell| layout.is_free(cell)).collect();
+        let starts: Vec<Cell> = self.starts(tracks, limits).flatten().flatten().collect();
         layout.reachable(&starts).into_iter().map(|cell| self.northward(cell)).collect()
     }
 }

@@ -227,6 +227,10 @@ impl LogReport<'_> {
                     far(*allowed)
                 )
             }
+            Demand::Crowd { .. } if cells.len() > 1 => {
+                let cells: Vec<_> = cells.iter().map(|&cell| self.cell(cell)).collect();
+                format!("robots {who} are in the cells {}, at most {allowed} may be", cells.join(" and "))
+            }
             Demand::Crowd { .. } => format!("robots {who} are in the cell {cell}, at most {allowed} may be"),
             Demand::Visited { .. } => {
                 return format!(
@@ -276,6 +280,24 @@ impl LogReport<'_> {
                     self.cell(*cell)
                 )
             }
+            Doubt::Border(at_us, cell, robots) => {
+                let who: Vec<_> = robots.iter().take(SHOWN).map(|&robot| self.robot(robot)).collect();
+                format!(
+                    "at {} s robots {} may be in the cell {}, at whose border they are within the tolerance",
+                    seconds(*at_us),
+                    who.join(" and "),
+                    self.cell(*cell)
+                )
+            }
+            Doubt::Base => {
+                "the base is the cell in which robot 1 is first, and it is at the border of a cell then: \
+                            say where the base is with --base"
+                    .to_owned()
+            }
+            Doubt::Astray(robot) => format!(
+                "robot {} is not first in a free cell of the map, and which cells it can reach is not known",
+                self.robot(*robot)
+            ),
             Doubt::Nowhere => {
                 "no robot is first in a free cell of the map, and the clause asks for nothing".to_owned()
             }
