@@ -3,6 +3,7 @@
 use std::fs;
 
 use tautline_certificates::digest;
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
 
 use super::{folder, json, names, printed, ran, refused, says, write};
 
@@ -79,6 +80,22 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
     write(folder, "mixed.cert", changed(&mixed, b"clause", b"clause"));
     let mixed = printed(folder, &["check", "mixed.cert"], 1);
     assert!(mixed.starts_with("mixed.cert: refused: section 1, "), "{mixed}");
+}
+
+#[test]
+fn every_certificate_is_known_again_and_replaced_by_the_next_one() {
+    let folder = &folder();
+    printed(folder, &["prove", "KIT-3", "--certificate", "certificates"], 0);
+    let files = ["KIT_3_repaired.v", "kit-3-repaired-states-2.cert", "kit-3-repaired-states.cert"];
+    assert_eq!(names(&folder.join("certificates")), files);
+    for file in files {
+        let next = AtomicFile::new(&folder.join("certificates").join(file), &Replaceable::default());
+        assert_eq!(next.err(), None, "{file}");
+    }
+    // A proof that somebody else wrote is none of ours.
+    let own = folder.join("Own.v");
+    fs::write(&own, "From Coq Require Import ZArith NArith List.\n").expect("a file");
+    assert!(AtomicFile::new(&own, &Replaceable::default()).is_err());
 }
 
 #[test]

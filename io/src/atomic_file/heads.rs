@@ -5,8 +5,8 @@ use std::io::Read;
 use std::path::Path;
 
 /// How the files begin that this program writes: stored runs and kept hunts, certificates, pictures, pages, manual
-/// pages, ITF traces, recordings, tables, maps of ROS.
-const OURS: [&[u8]; 10] = [
+/// pages, ITF traces, recordings, tables, maps of ROS, files that Rocq checks.
+const OURS: [&[u8]; 11] = [
     b"{\"format\":\"tautline ",
     b"tautline certificate ",
     SVG_HEAD.as_bytes(),
@@ -17,6 +17,7 @@ const OURS: [&[u8]; 10] = [
     CSV_HEAD.as_bytes(),
     ROS_HEADS[0].as_bytes(),
     ROS_HEADS[1].as_bytes(),
+    ROCQ_HEAD.as_bytes(),
 ];
 
 /// How the files among them begin that keep work for later.
@@ -52,6 +53,15 @@ pub const ROS_HEADS: [&str; 2] = ["# Written by tautline.\n", "P5\n# tautline\n"
 
 /// The beginning of a manual page: a comment.
 pub const MAN_HEAD: &str = ".\\\" Written by tautline.\n";
+
+/// The beginning of a certificate of a local rule, a file that Rocq checks.
+const ROCQ_HEAD: &str = "From Coq Require Import ZArith NArith List.
+From Tautline Require Import Certificate.
+Import ListNotations.
+Local Open Scope Z_scope.
+
+Definition rule_ : rule := {|
+";
 
 /// Why the file is not replaced, unless it is empty or begins as the files of this program do that can be made again.
 pub(super) fn worth(file: &Path) -> Option<&'static str> {
