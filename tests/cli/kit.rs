@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{folder, json, names, printed, ran, refused, says};
+use super::{folder, json, names, printed, ran, read, refused, says};
 
 /// Whether the judge has accepted a counterexample.
 fn is_judged(replayed: &str, clause: &str) -> bool {
@@ -36,6 +36,19 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
     assert_eq!((&far["verdict"], &far["range"]), (&"holds".into(), &4.into()));
     let stopped = ran(folder, &[&hunt[..], &["--budget", "10"]].concat());
     assert_eq!(stopped.status.code(), Some(3));
+}
+
+/// At any speeds three drives break KIT-3; at equal ones, which the paper has, four do.
+#[test]
+fn a_run_at_equal_speeds_that_is_made_smaller_is_one_at_equal_speeds() {
+    let folder = &folder();
+    let run = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/kit-3-published-equal.jsonl");
+    let told = json(folder, &["minimise", run], 0);
+    assert_eq!((&told["before"]["steps"], &told["after"]["steps"]), (&4.into(), &4.into()), "{told}");
+    let file = told["file"].as_str().expect("a file");
+    let stored = read(folder, file);
+    assert!(stored.contains("\"choices\":[1,"), "{stored}");
+    assert!(is_judged(&printed(folder, &["replay", file], 1), "KIT-3"));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::kit::Rule as Kit;
 use tautline_proofs::engine::states::{Run, System};
-use tautline_proofs::kit::counterexample::{Counterexample, fewest};
+use tautline_proofs::kit::counterexample::{Counterexample, EQUAL_SPEEDS, fewest};
 use tautline_proofs::kit::symmetry::SymmetricLattice;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts, World};
 use tautline_proofs::plural::counted;
@@ -49,7 +49,8 @@ struct Pass {
 
 impl Pass {
     const ALL: Self = Self { speeds: Speeds::Any, starts: Starts::Anywhere, demand: None };
-    const EQUAL: Self = Self { speeds: Speeds::Equal, demand: Some(Demand::Contact), ..Self::ALL };
+    const EQUAL: Self = Self { demand: Some(Demand::Contact), ..Self::ALL_AT_EQUAL };
+    const ALL_AT_EQUAL: Self = Self { speeds: Speeds::Equal, ..Self::ALL };
     const WHOLE: Self = Self { starts: Starts::SideBySide, demand: Some(Demand::Whole), ..Self::ALL };
 
     fn setting<const ROBOTS: usize>(
@@ -94,13 +95,41 @@ impl Hunt for KernelHunt {
         HuntRequest { range_cells: setup.options.range_cells, ..asked }
     }
 
+    /// The first choice says whether robots drive at equal speeds: then no other runs are hunted.
+    fn hunt_again(
+        &self,
+        setup: &Setup,
+        asked: HuntRequest<'_>,
+        hunter: &mut dyn Hunter,
+    ) -> Result<HuntReport, Diagnostic> {
+        let is_equal = setup.choices.first() == Some(&EQUAL_SPEEDS);
+        let speeds = if is_equal { Speeds::Equal } else { Speeds::Any };
+        self.hunt_at(speeds, &self.again(setup, asked), hunter)
+    }
+
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+        self.hunt_at(Speeds::Any, asked, hunter)
+    }
+}
+
+impl KernelHunt {
+    /// The hunt for runs at these speeds: at any, those at equal ones are among them.
+    fn hunt_at(
+        &self,
+        speeds: Speeds,
+        asked: &HuntRequest<'_>,
+        hunter: &mut dyn Hunter,
+    ) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked)?;
         let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
         let mut search = Search::new(asked, hunter);
-        let found = match robots {
-            1 => searched(rule, &[Pass::ALL], itself::<1>(), size, &mut search),
-            2 => searched(rule, &[Pass::ALL, Pass::EQUAL], IN_ONE_IMAGE, size, &mut search),
+        let found = match (robots, speeds) {
+            (1, Speeds::Equal) => searched(rule, &[Pass::ALL_AT_EQUAL], itself::<1>(), size, &mut search),
+            (2, Speeds::Equal) => {
+                searched(rule, &[Pass::EQUAL, Pass::ALL_AT_EQUAL], IN_ONE_IMAGE, size, &mut search)
+            }
+            (1, _) => searched(rule, &[Pass::ALL], itself::<1>(), size, &mut search),
+            (2, _) => searched(rule, &[Pass::ALL, Pass::EQUAL], IN_ONE_IMAGE, size, &mut search),
             _ => searched(rule, &[Pass::ALL, Pass::WHOLE], itself::<3>(), size, &mut search),
         }?;
         let Count { states, steps, cells, .. } = search.count;
@@ -149,8 +178,9 @@ fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usi
     let lattices = lattices(size);
     'lattices: for &lattice in &lattices {
         for &pass in passes {
-            // Runs at equal speeds are runs, and less is demanded of them.
-            let is_kept = all.iter().all(|broken| broken.demand != Demand::Contact);
+            // Runs at equal speeds are among those at any, if these are searched, too.
+            let has_any = passes.iter().any(|pass| pass.speeds == Speeds::Any);
+            let is_kept = has_any && all.iter().all(|broken| broken.demand != Demand::Contact);
             if pass.speeds == Speeds::Equal && is_kept {
                 continue;
             }
