@@ -387,7 +387,10 @@ fn picture(finding: &Finding) -> Result<String, Halt> {
     match (&finding.shown, setup.scheme.senses) {
         (Exhibit::Run(_), Senses::Bumps) => story::last_move(setup),
         (Exhibit::Run(_), Senses::Floor) => story::of_trap(setup),
-        (Exhibit::Endless, _) => Ok(format!("A run without end in this layout:\n\n{}", setup.layout)),
+        (Exhibit::Endless, _) => {
+            let what = "A run without end, which no file tells, in this layout:";
+            Ok(format!("{what}\n\n{}", setup.layout))
+        }
         (Exhibit::Story(_, story), Senses::Bumps) => Ok(format!("{story}\n{}", story::last_move(setup)?)),
         (Exhibit::Story(_, story) | Exhibit::Told(story), _) => Ok(story.clone()),
     }

@@ -32,7 +32,7 @@ use TeamSetting::{Apart, Dies, Miss, Noise, Nothing, OneByOne, Range, SightAndRa
 /// lacks, if it lacks one; the layout, the robots, the seed, and what else is told.
 type Case = (&'static str, bool, [&'static str; 3], (&'static str, u16, u64), TeamSetting);
 
-const CASES: [Case; 22] = [
+const CASES: [Case; 23] = [
     ("CHAIN-1", false, ["chain", "published", ""], ("cells:6x5:0.2", 6, 0), Nothing),
     ("CHAIN-2", false, ["chain", "published", "Distinct"], ("walls:7x5:0.2", 4, 3), Nothing),
     ("CHAIN-3", false, ["chain", "published", "SafeAhead"], ("walls:7x5:0.2", 3, 0), Nothing),
@@ -41,6 +41,7 @@ const CASES: [Case; 22] = [
     ("CHAIN-19", false, ["chain", "published", ""], ("walls:7x5:0.2", 4, 0), OneByOne),
     ("CHAIN-21", false, ["chain", "published", ""], ("walls:7x5:0.2", 4, 0), Dies(2, 5)),
     ("BRICKS-4", false, ["bricks", "published", ""], ("open:5x4", 2, 0), Miss),
+    ("BRICKS-5", true, ["bricks", "published", ""], ("walls:7x5:0.2", 1, 0), Nothing),
     ("BRICKS-6", true, ["bricks", "published", ""], ("open:5x4", 1, 0), Nothing),
     ("KIT-1", false, ["kit", "published", ""], ("walls:3x3:0.2", 2, 0), Range(2)),
     ("KIT-3", false, ["kit", "published", ""], ("walls:3x3:0.2", 2, 0), Nothing),

@@ -58,6 +58,40 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
     assert_eq!(names(folder), ["shut.txt"]);
 }
 
+/// As published two robots come into one cell; by the rule that wanders their runs have no end. Of a message that is
+/// lost the judge knows nothing, nor of rivals.
+#[test]
+fn what_a_hunt_has_stored_is_judged_where_there_is_a_judge_and_has_an_end_only_if_the_run_does() {
+    for (rule, more, clause, is_judged) in [
+        ("published", &[][..], "FRONTIER-2", true),
+        ("wanders", &[], "FRONTIER-3", true),
+        ("literal", &[], "FRONTIER-3", true),
+        ("published", &["--max-losses", "1"], "FRONTIER-4", false),
+        ("earlier", &[], "FRONTIER-3", false),
+    ] {
+        let folder = &folder();
+        let hunt = ["hunt", "--scheme", "frontier", "--robots", "2", "--size", "3x1", "--rule", rule];
+        let hunted = json(folder, &[&hunt[..], more].concat(), 1);
+        let found = hunted["counterexamples"].as_array().expect("a list");
+        let broken = found.iter().find(|finding| finding["clause"] == clause).expect("it is broken");
+        let replayed = printed(folder, &["replay", broken["file"].as_str().expect("a file")], 1);
+        let said = format!("the judge accepts it as a counterexample to {clause}");
+        assert_eq!(replayed.contains(&said), is_judged, "{replayed}");
+        let is_endless = replayed.contains("the team is where it was, and would go round for ever");
+        assert_eq!(is_endless, clause == "FRONTIER-3", "{replayed}");
+    }
+}
+
+#[test]
+fn agents_that_go_round_for_ever_are_stored_up_to_where_they_are_as_before() {
+    let folder = &folder();
+    let hunt = ["hunt", "--scheme", "bricks", "--rule", "published", "--max-misses", "0", "--size", "5x3"];
+    let told = printed(folder, &hunt, 1);
+    says(&told, &["BRICKS-5, 0 missed, 5x3 cells", "After team move 23 all is as it was before", "the end"]);
+    let replayed = printed(folder, &["replay", "bricks-5-published-n1.jsonl"], 1);
+    says(&replayed, &["23 team moves: the team is where it was", "BRICKS-5 is broken in team move 23"]);
+}
+
 #[test]
 fn a_map_of_ros_is_read_again_as_far_as_it_was_explored() {
     let folder = &folder();

@@ -135,24 +135,13 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 
     /// The run by a rule without repairs, written down for the judge.
     fn case(&self) -> Option<Box<dyn AnyCase>> {
-        let rule = match self.setting.rule {
-            Rule::PUBLISHED => judge::Rule::Published,
-            Rule::PRINTED => judge::Rule::Printed,
-            Rule::LITERAL => judge::Rule::Literal,
-            Rule::WANDERS => judge::Rule::Wanders,
-            LITERAL_T => judge::Rule::AdaptiveLiteral,
-            _ => return None,
-        };
+        let Setting { rule, area, .. } = self.setting;
         let (start, steps, once) = self.steps()?;
-        let area = self.setting.area;
         let truth = steps.last().map_or(start.truth(), |(_, world)| world.truth());
-        let barred = area.cells().filter(|&cell| truth.status(cell) == Status::Obstacle).map(place).collect();
-        let floor = Floor { columns: area.width() as i32, rows: area.height() as i32, barred };
-        let starts = start.cells().map(place).to_vec();
+        let barred = area.cells().filter(|&cell| truth.status(cell) == Status::Obstacle).collect();
         let round = steps.len() - once;
-        let steps = steps.iter().map(|(event, _)| written(event)).collect::<Option<Vec<_>>>()?;
-        let clause = self.run.demand.clause();
-        Some(Box::new(judge::Run { clause, rule, floor, starts, steps, round }))
+        let events: Vec<Event> = steps.into_iter().map(|(event, _)| event).collect();
+        case(self.run.demand.clause(), (rule, area, barred), &start.cells(), &events, round)
     }
 
     /// The events, a line for each step.
@@ -174,6 +163,30 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         }
         lines
     }
+}
+
+/// A run from `starts` by a rule, in an area with obstacles, of which the last `round` steps come again for ever, said
+/// to break `clause`: written down for the judge; `None` if it knows no such rule, or a message is lost.
+pub fn case(
+    clause: &'static str,
+    (rule, area, barred): (Rule, Area, Vec<Cell>),
+    starts: &[Cell],
+    events: &[Event],
+    round: usize,
+) -> Option<Box<dyn AnyCase>> {
+    let rule = match rule {
+        Rule::PUBLISHED => judge::Rule::Published,
+        Rule::PRINTED => judge::Rule::Printed,
+        Rule::LITERAL => judge::Rule::Literal,
+        Rule::WANDERS => judge::Rule::Wanders,
+        LITERAL_T => judge::Rule::AdaptiveLiteral,
+        _ => return None,
+    };
+    let barred = barred.into_iter().map(place).collect();
+    let floor = Floor { columns: area.width() as i32, rows: area.height() as i32, barred };
+    let starts = starts.iter().copied().map(place).collect();
+    let steps = events.iter().map(written).collect::<Option<Vec<_>>>()?;
+    Some(Box::new(judge::Run { clause, rule, floor, starts, steps, round }))
 }
 
 /// An event as the judge reads it, if no message is lost.

@@ -124,6 +124,14 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
         }
         Ok(())
     })?;
+    if report.stopped == StopReason::Endless {
+        let lines = outcome(run, &report.chart, &report.team).lines().map(str::to_owned).collect();
+        blocks.push(Block { title: "the end".to_owned(), lines });
+        let setup = run.setup();
+        let left = report.chart.unexplored(setup.layout.reachable(&setup.starts())).len();
+        let again = format!("After team move {} all is as it was before", report.steps);
+        let _ = writeln!(words, "  {again}, and so on for ever, with {} unexplored.", counted(left, "cell"));
+    }
     Ok(format!("{}\n\n{words}\n{}", legend(run.setup().scheme.look), beside(blocks)))
 }
 

@@ -15,6 +15,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
 use tautline_proofs::run::Frame;
 
+use super::clause::broken;
 use super::floor::{self, Component, SensorFloor, is_visited};
 use super::scan_time;
 use super::{
@@ -39,6 +40,9 @@ pub(super) const AGENTS: Profile = Profile {
 
 /// An agent is done, and a cell that it could get to is unexplored.
 pub const PREMATURE: ClauseId = ClauseId::new("BRICKS-4");
+
+/// The agents go round for ever, and a cell that one could get to is unexplored.
+pub const UNEXPLORED: ClauseId = ClauseId::new("BRICKS-5");
 
 /// The run has ended, or goes on for ever, and a cell that an agent could get to is not visited.
 pub const UNVISITED: ClauseId = ClauseId::new("BRICKS-6");
@@ -318,10 +322,11 @@ impl<S: Scheme> Team for Patrol<S> {
         if self.team.is_premature { vec![PREMATURE] } else { Vec::new() }
     }
 
-    fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
+        let is_unexplored = end == End::Endless && self.team.explored() < self.team.due();
         let is_promised = self.team.scheme.promises(self.team.misses.sight());
-        let is_broken = is_promised && self.team.visited() < self.team.due();
-        if is_broken { vec![UNVISITED] } else { Vec::new() }
+        let is_unvisited = is_promised && self.team.visited() < self.team.due();
+        broken([(is_unvisited, UNVISITED), (is_unexplored, UNEXPLORED)])
     }
 
     fn marked(&self) -> &[(Cell, Mark)] {

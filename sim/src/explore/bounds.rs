@@ -168,7 +168,7 @@ pub enum RunSize {
 pub enum Exhibit {
     /// By its last team move. It is stored as a run that breaks this clause.
     Run(ClauseId),
-    /// By its layout. A run without end is not stored.
+    /// By its layout. A run without end that its team does not tell from others is not stored.
     Endless,
     /// By what happens in it. It is stored as a run that breaks this clause.
     Story(ClauseId, String),

@@ -9,7 +9,7 @@ use tautline_proofs::judge::Case;
 use tautline_proofs::judge::floor::{self, Judgement};
 use tautline_proofs::plural::counted;
 
-use super::agents::{AGENTS, PREMATURE, UNVISITED, unvisited};
+use super::agents::{AGENTS, PREMATURE, UNEXPLORED, UNVISITED, unvisited};
 use super::hunt_states::{crew, switched};
 use super::judge_input::of_agent;
 use super::{Clause, Knowledge, Profile, Rule, RuleId, Setup, Survey, TeamMove};
@@ -54,6 +54,7 @@ pub(super) const MARKING: Profile = Profile {
     knowledge: Some(Knowledge::Visited),
     clauses: &[
         Clause { lines: premature, ..Clause::new(PREMATURE.as_str()) },
+        Clause::new(UNEXPLORED.as_str()),
         Clause { missed: Some("Connected with a start and not visited"), ..Clause::new(UNVISITED.as_str()) },
     ],
     // Where marks decide, there is no judge.

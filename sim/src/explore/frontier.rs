@@ -24,6 +24,12 @@ const PLAIN: RuleId = RuleId::new("plain");
 /// The rule by which robots wander.
 const WANDERS: RuleId = RuleId::new("wanders");
 
+/// The rule by which obstacles are not stored.
+const LITERAL: RuleId = RuleId::new("literal");
+
+/// The rule with equation (11) as printed.
+const PRINTED: RuleId = RuleId::new("printed");
+
 /// The most robots of a team.
 const MAX_ROBOTS: usize = 64;
 
@@ -42,8 +48,8 @@ pub static FRONTIER: Profile = Profile {
         searched!(RuleId::REPAIRED, "With the repairs of its refuted claims", Frontier::REPAIRED),
         searched!(PLAIN, "With the repairs and without preferences", Frontier::PLAIN),
         searched!(WANDERS, "A robot without a candidate wanders", Frontier::WANDERS),
-        searched!(RuleId::new("literal"), "Obstacles are avoided to the letter", Frontier::LITERAL),
-        searched!(RuleId::new("printed"), "The occupancy probability is as printed", Frontier::PRINTED),
+        searched!(LITERAL, "Obstacles are avoided to the letter", Frontier::LITERAL),
+        searched!(PRINTED, "The occupancy probability is as printed", Frontier::PRINTED),
         assigned!("greedy", "The nearest pair of robot and frontier cell first", Assignment::Greedy),
         assigned!("hungarian", "Frontier cells by the Hungarian algorithm", Assignment::Hungarian),
         assigned!("hungarian-anew", "The same, anew at every move", Assignment::HungarianAnew),
@@ -82,8 +88,20 @@ pub static FRONTIER: Profile = Profile {
         Clause::new(KNOWS.as_str()),
         Clause::new(MARKS.as_str()),
     ],
+    case: |setup, clause, _| scripted::case(setup, clause, unrepaired(setup.rule)?),
     ..Profile::named("frontier")
 };
+
+/// The rule of the kernel of which there is a judge.
+fn unrepaired(rule: RuleId) -> Option<Frontier> {
+    match rule {
+        RuleId::PUBLISHED => Some(Frontier::PUBLISHED),
+        WANDERS => Some(Frontier::WANDERS),
+        LITERAL => Some(Frontier::LITERAL),
+        PRINTED => Some(Frontier::PRINTED),
+        _ => None,
+    }
+}
 
 /// The team of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {

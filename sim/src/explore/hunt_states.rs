@@ -7,7 +7,7 @@ use tautline_proofs::floor::trap::{Bounds, End, MAX_AGENTS, MAX_CELLS, Trap, Tra
 use tautline_proofs::plural::counted;
 
 use super::Setup;
-use super::agents::{self, PREMATURE};
+use super::agents::{self, PREMATURE, UNEXPLORED};
 use super::by_layout::Each;
 use super::hunt::{Bound, CoveredBound, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
 use super::switches::SwitchableRule;
@@ -21,9 +21,6 @@ const DEFAULT_AGENTS: u64 = 1;
 
 /// Sensors that are missed at most when nobody says how many.
 const DEFAULT_MISSES: u8 = 1;
-
-/// The clause that a run without end breaks.
-const ENDLESS: &str = "BRICKS-5";
 
 /// The rule of a crew: how it starts, and how it is hunted.
 macro_rules! crew {
@@ -159,11 +156,11 @@ fn finding(asked: &HuntRequest<'_>, trap: &Trap) -> Result<Finding, Diagnostic> 
     let layout = Layout::open(width as u64, height as u64)?.with_blocked(trap.blocked.iter().copied());
     let setup = HuntRequest::new(asked.scheme, asked.rule).setup(layout, trap.starts.clone(), None)?;
     let setup = Setup { missed: trap.missed.clone(), ..setup };
-    let (clause, shown) = match trap.end {
-        End::Done => (PREMATURE.as_str(), Exhibit::Run(PREMATURE)),
-        End::Endless => (ENDLESS, Exhibit::Endless),
+    let clause = match trap.end {
+        End::Done => PREMATURE,
+        End::Endless => UNEXPLORED,
     };
     let facts = RunSize::Misses { misses, columns: width, rows: height, steps: moves };
     let title = format!("{misses} missed, {width}x{height} cells, {}", counted(moves, "team move"));
-    Ok(Finding { clause, facts, title, setup, shown })
+    Ok(Finding { clause: clause.as_str(), facts, title, setup, shown: Exhibit::Run(clause) })
 }

@@ -170,7 +170,7 @@ fn searched<const ROBOTS: usize>(
     found.iter().map(|(demand, found)| finding(asked, *demand, found)).collect()
 }
 
-/// A counterexample of a search as one that can be stored, unless its run goes on for ever.
+/// A counterexample of a search as one that can be stored.
 fn finding<const ROBOTS: usize>(
     asked: &HuntRequest<'_>,
     demand: Demand,
@@ -188,8 +188,7 @@ fn finding<const ROBOTS: usize>(
         }
         None => (asked.setup(open, vec![Cell::new(0, 0); ROBOTS], Some(clause))?, 0),
     };
-    let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
-    let story = found.story();
+    let (is_stored, story) = (!setup.choices.is_empty(), found.story());
     let shown = if is_stored { Exhibit::Story(clause, story) } else { Exhibit::Told(story) };
     let (facts, title) = sized([area.width(), area.height()], walls, moves);
     Ok(Finding { clause: demand.clause(), facts, title, setup, shown })

@@ -7,11 +7,12 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::world::World as _;
-use tautline_proofs::frontier::areas::setting;
+use tautline_proofs::frontier::areas;
 use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor};
+use tautline_proofs::judge::Case;
 use tautline_proofs::run::Frame;
 
-use super::team::{COVERS, KNOWS};
+use super::team::{COVERS, ENDS, KNOWS};
 use crate::explore::clause::broken;
 use crate::explore::script::Script;
 use crate::explore::setup::of_choices;
@@ -29,12 +30,35 @@ pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diag
     }
 }
 
-fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
+/// The run of `setup`, which has choices and is said to break `clause`, written down for the judge of FRONTIER.
+pub(super) fn case(setup: &Setup, clause: ClauseId, rule: Frontier) -> Option<Box<dyn Case>> {
+    match setup.robots {
+        1 => written_down::<1>(setup, clause, rule),
+        2 => written_down::<2>(setup, clause, rule),
+        3 => written_down::<3>(setup, clause, rule),
+        _ => None,
+    }
+}
+
+fn written_down<const ROBOTS: usize>(
+    setup: &Setup,
+    clause: ClauseId,
+    rule: Frontier,
+) -> Option<Box<dyn Case>> {
+    let mut script = script::<ROBOTS>(setup, rule).ok()?;
+    let events: Vec<Event> = std::iter::from_fn(|| Some(script.choose(|_| true)?.event)).collect();
+    let round = if clause == ENDS { script.round()?.len() } else { 0 };
+    let barred = setup.layout.cells().filter(|&cell| !setup.layout.is_free(cell)).collect();
+    let floor = (rule, script.system.area, barred);
+    Some(areas::case(clause.as_str(), floor, &setup.starts(), &events, round)?)
+}
+
+/// The world of `setup`, and its choices.
+fn script<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Script<Setting<ROBOTS>>, Diagnostic> {
     let layout = &setup.layout;
-    let starts = setup.starts();
-    let setting = setting::<ROBOTS>(rule, (layout.width(), layout.height()));
+    let setting = areas::setting::<ROBOTS>(rule, (layout.width(), layout.height()));
     let blank = TinyMap::new(layout.size().area());
-    let cells = <[Cell; ROBOTS]>::try_from(starts.as_slice());
+    let cells = <[Cell; ROBOTS]>::try_from(setup.starts());
     let (Some(setting), Some(mut given), Ok(cells)) = (setting, blank, cells) else {
         return Err(of_choices("the layout is too large for choices"));
     };
@@ -47,8 +71,13 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn T
     let Some(world) = setting.start(cells) else {
         return Err(of_choices("the layout is too large for choices"));
     };
-    let due = layout.reachable(&starts);
-    Ok(Box::new(ScriptedTeam { script: Script::new(setting, world, choices), cells: starts, due }))
+    Ok(Script::new(setting, world, choices))
+}
+
+fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
+    let (starts, script) = (setup.starts(), script::<ROBOTS>(setup, rule)?);
+    let due = setup.layout.reachable(&starts);
+    Ok(Box::new(ScriptedTeam { script, cells: starts, due }))
 }
 
 struct ScriptedTeam<const ROBOTS: usize> {
@@ -77,7 +106,9 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         self.script.broken.clear();
         self.go_on();
         let look = self.script.choose(is_look).map(|turned| turned.event);
-        let Some(Event::Looks(robot, side, sight, ..)) = look else { return Err(End::Exhausted) };
+        let Some(Event::Looks(robot, side, sight, ..)) = look else {
+            return Err(if self.script.goes_round() { End::Endless } else { End::Exhausted });
+        };
         self.go_on();
         let mut moves = Moves::none(ROBOTS);
         match sight {
@@ -102,7 +133,10 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         broken.map(|demand| ClauseId::new(demand.clause())).collect()
     }
 
-    fn broken_at_end(&self, layout: &Layout, chart: &Survey, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
+        if end == End::Endless {
+            return vec![ENDS];
+        }
         let is_still = self.script.is_over();
         let is_short = is_still && !self.missed(layout, chart).is_empty();
         let knows = Setting { demand: Some(Demand::Knows), ..self.script.system };

@@ -220,13 +220,17 @@ fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Diagnostic> {
     Ok((MOST_MOVES, broken))
 }
 
-/// A run that breaks a clause, as one that can be stored, unless it goes on for ever.
+/// A run that breaks a clause, as one that can be stored, unless it was watched no longer.
 fn finding(setup: Setup, clause: ClauseId, steps: u32) -> Finding {
     let layout = &setup.layout;
     let size = [layout.width() as usize, layout.height() as usize];
     let walls = layout.size().cells() - layout.free_cells();
     let (facts, title) = sized(size, walls, steps as usize);
-    let shown = if clause == ENDS { Exhibit::Told(endless(&setup)) } else { Exhibit::Run(clause) };
+    let shown = match (clause == ENDS, steps < MOST_MOVES) {
+        (true, true) => Exhibit::Story(clause, endless(&setup)),
+        (true, false) => Exhibit::Told(endless(&setup)),
+        (false, _) => Exhibit::Run(clause),
+    };
     let setup = Setup { limits: Limits::stopping_at(Some(clause)), ..setup };
     Finding { clause: clause.as_str(), facts, title, setup, shown }
 }
