@@ -1,18 +1,26 @@
 //! Signals that end the work: Ctrl-C, SIGTERM and, unless the process was started to ignore it, SIGHUP. The first ends
 //! the process at once, unless the work in hand has results to keep; then it ends the work, and the second the process.
-//! No unfinished file stays.
+//! One that comes right behind the first is the same: `timeout` sends it to the process and to its group. No unfinished
+//! file stays.
 
 use super::exit::Exit;
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::process;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use tautline_io::atomic_file;
 use tautline_io::diagnostic::Halt;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 static DEFERRED: AtomicBool = AtomicBool::new(false);
+/// When the first signal came.
+static FIRST: OnceLock<Instant> = OnceLock::new();
+
+/// A signal that comes so soon behind the first is the same.
+const SAME: Duration = Duration::from_millis(200);
 
 /// Listens from now on.
 pub(super) fn listen() {
@@ -23,7 +31,8 @@ pub(super) fn listen() {
 
 fn heard() {
     let is_first = !REQUESTED.swap(true, Ordering::Relaxed);
-    if is_first && DEFERRED.load(Ordering::Relaxed) {
+    let is_same = FIRST.get_or_init(Instant::now).elapsed() < SAME;
+    if is_same && DEFERRED.load(Ordering::Relaxed) {
         return;
     }
     atomic_file::abandon();

@@ -554,7 +554,7 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
             let child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program runs");
             std::thread::sleep(Duration::from_millis(millis));
             send("-TERM", &child);
-            // A second one, if the first is still being seen to, ends it at once.
+            // A second one at once behind it is the same.
             if millis % 20 == 0 {
                 send("-TERM", &child);
             }

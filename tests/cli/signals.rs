@@ -40,6 +40,23 @@ fn value(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
+/// `timeout` sends a signal to the process, and to the group in which it is.
+#[test]
+fn a_signal_that_comes_twice_at_once_is_one() {
+    let folder = &folder();
+    for _ in 0..20 {
+        let mut command = tautline(folder, &["-vv", "hunt", "--robots", "5", "--max-walls", "5"]);
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program runs");
+        std::thread::sleep(std::time::Duration::from_millis(150));
+        let id = child.id().to_string();
+        let twice = ["-c", "kill -TERM $0; kill -TERM $0", &id];
+        assert!(std::process::Command::new("sh").args(twice).status().is_ok_and(|status| status.success()));
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(3), "{output:?}");
+        says(&told(&output), &["the hunt was ended before"]);
+    }
+}
+
 /// A clause that is decided at once.
 const QUICK: &str = "NOTICE-4";
 
