@@ -17,7 +17,7 @@ pub use self::team::{
 };
 use self::team::{KitTeam, reach};
 use super::switches::searched;
-use super::{By, Clause, Profile, RandomPart, RuleId, Setup, Starts, Team};
+use super::{By, Clause, Look, Profile, RandomPart, RuleId, Setup, Starts, Team};
 use crate::kit::{MOST_ROBOTS, Pace, course, paths};
 use crate::options::Extra;
 
@@ -38,6 +38,7 @@ pub static KIT: Profile = Profile {
         what: "which of several sides a robot takes, and how fast it drives",
         by: By::Every,
     }],
+    look: Look::Robots,
     clauses: &[
         Clause::new(CONTACT.as_str()),
         Clause::new(EQUAL.as_str()),

@@ -17,8 +17,8 @@ use tautline_proofs::run::Frame;
 use super::clause::broken;
 use super::switches::SwitchableRule;
 use super::{
-    Clause, ClauseId, End, Layer, Profile, Rule, RuleId, Scene, Setup, Starts, Surroundings, Survey, Team,
-    has_double, unlinked,
+    Clause, ClauseId, End, Layer, Look, Profile, Rule, RuleId, Scene, Setup, Starts, Surroundings, Survey,
+    Team, has_double, unlinked,
 };
 use crate::options::Extra;
 use tautline_grids::layout::Layout;
@@ -56,6 +56,7 @@ pub static PACK: Profile = Profile {
     robots: 1..=MAX_ROBOTS,
     starts: Starts::Alone,
     extras: &[Extra::RANGE, Extra::SIGHT],
+    look: Look::Robots,
     clauses: &[
         Clause::new(CONNECTED.as_str()),
         Clause::new(SINGLE.as_str()),
