@@ -228,7 +228,9 @@ impl Explore {
         if let Some(writer) = writer {
             out.keep(writer.end(&report));
         }
-        out.store(page, |page| page::write(page, &setup, &report, &(1..=report.steps)))?;
+        let generator = self.layout.layout.parse().ok();
+        let run = (&setup as _, generator.as_ref());
+        out.store(page, |page| page::write_in(page, run, &report, &(1..=report.steps)))?;
         viewers::store([itf, mcap], &setup, out)?;
         if let (Some(mut map), Some(mut grid), Some(frame)) = (map, grid, frame) {
             grid.append(ros_map::image(&setup, &report));

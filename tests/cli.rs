@@ -706,6 +706,12 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
     }
     let page = read(folder, "moves.html");
     assert_eq!(lines_of(&page).len(), 4, "three team moves, and where the robots were before");
+    // The page of a run in a layout that was generated has the command that makes it again.
+    let page = read(folder, "run.html");
+    let again = film_of(&page)["again"]["command"].as_str().expect("a command").to_owned();
+    let again: Vec<&str> = again.split(' ').skip(1).chain(["--force"]).collect();
+    printed(folder, &again, 0);
+    assert_eq!(read(folder, "run.html"), page, "{again:?}");
 }
 
 #[test]

@@ -23,6 +23,7 @@ use crate::explore::{
     Change, ClauseId, Hearers, Layer, Look, Mark, Place, Play, Report, Scene, Survey, TeamMove,
 };
 use crate::trace::{letter, numbered_from};
+use tautline_grids::layout::Generator;
 
 /// Bytes of a page. Larger ones take a browser too long.
 const MAX_BYTES: usize = 10_000_000;
@@ -62,6 +63,8 @@ impl Sink for String {
 struct Page<'a> {
     sink: &'a mut dyn Sink,
     run: &'a dyn Play,
+    /// What has made its layout, if that is known.
+    generator: Option<&'a Generator>,
     report: &'a Report,
     moves: RangeInclusive<u32>,
     bytes: usize,
@@ -150,7 +153,7 @@ impl Page<'_> {
             clauses: self.clauses.iter().map(|(&id, &says)| (id, says.to_owned())).collect(),
             ends,
             notes: notes(report),
-            again: again(setup),
+            again: again(setup, self.generator),
         }
     }
 
@@ -187,9 +190,23 @@ pub fn write(
     report: &Report,
     moves: &RangeInclusive<u32>,
 ) -> Result<(), Halt> {
+    write_in(sink, (run, None), report, moves)
+}
+
+/// As [`write()`], of a run in the layout that this generator makes of its seed, if one is named.
+///
+/// # Errors
+/// As of [`write()`].
+pub fn write_in(
+    sink: &mut dyn Sink,
+    (run, generator): (&dyn Play, Option<&Generator>),
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+) -> Result<(), Halt> {
     let mut page = Page {
         sink,
         run,
+        generator,
         report,
         moves: moves.clone(),
         bytes: 0,

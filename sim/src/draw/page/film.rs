@@ -11,7 +11,7 @@ use tautline_proofs::plural::counted;
 
 use crate::explore::{Joins, Kind, Layer, Milestone, Report, Scheme, Setup, Shape, Starts, Value, Zone};
 use crate::options::{Extra, Takes};
-use tautline_grids::layout::Layout;
+use tautline_grids::layout::{Generator, Layout};
 
 const TEMPLATE: &str = include_str!("page.html");
 const SCRIPT: &str = concat!(include_str!("marks.js"), include_str!("page.js"));
@@ -93,7 +93,8 @@ pub struct EndBreach {
 /// How to make another run.
 #[derive(Serialize)]
 pub struct Again {
-    /// The command, in which LAYOUT is a file; none where the run was not made by one.
+    /// The command, in which LAYOUT is a file with the layout, unless a generator made it; none where the run was not
+    /// made by a command.
     pub command: Option<String>,
     /// The drawing of the layout, if it is small.
     pub layout: Option<String>,
@@ -314,8 +315,8 @@ pub(super) fn notes(report: &Report) -> Vec<(u32, String)> {
     Milestone::ALL.into_iter().filter_map(reached).chain([end]).collect()
 }
 
-/// How to make the run again, and others.
-pub(super) fn again(setup: &Setup) -> Again {
+/// How to make the run again, and others; its layout is that of a generator, if one is named.
+pub(super) fn again(setup: &Setup, generator: Option<&Generator>) -> Again {
     let Setup { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } =
         setup;
     let is_small = setup.layout.size().area().cells().nth(MOST_PRINTED).is_none();
@@ -330,7 +331,7 @@ pub(super) fn again(setup: &Setup) -> Again {
         return by_search;
     }
     let mut command = vec![
-        "tautline explore LAYOUT".to_owned(),
+        generator.map_or_else(|| "tautline explore LAYOUT".to_owned(), |of| format!("tautline explore {of}")),
         format!("scheme {}", scheme.name),
         format!("rule {rule}"),
         format!("robots {robots}"),
@@ -349,7 +350,8 @@ pub(super) fn again(setup: &Setup) -> Again {
     command.extend(Extra::ALL.into_iter().filter_map(extra));
     command.extend(limits.until.map(|milestone| format!("until {}", milestone.percent())));
     command.extend(limits.max_moves.map(|most| format!("max-moves {most}")));
-    command.extend(scheme.draws(setup).then(|| format!("seed {seed}")));
+    let is_by_seed = scheme.draws(setup) || generator.is_some_and(Generator::is_random);
+    command.extend(is_by_seed.then(|| format!("seed {seed}")));
     command.push("html run.html".to_owned());
     Again { command: Some(command.join(" --")), ..by_search }
 }

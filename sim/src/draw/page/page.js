@@ -1144,8 +1144,9 @@ function fillIn() {
   const { command, layout } = film.again;
   find("again-text").textContent = `This page holds the stored run only: it cannot say what would happen in another layout, with another seed or by another rule. ${
     command === null ? "The run was made by a search or by another program, not by one command; `tautline hunt --help` tells how runs are searched for."
-      : inCells ? layout === null ? "Change your layout and run it again, with your file in the place of LAYOUT:" : "To open or close a side, store the layout below in a file, change it, and run it, with the name of your file in the place of LAYOUT:"
-        : "Change what you like and run it again:"}`;
+      : command.startsWith("tautline explore ") && !command.startsWith("tautline explore LAYOUT ") ? `Change what you like and run it again${layout === null ? "" : "; to open or close a side, store the layout below in a file, change it, and name the file in place of the generator"}:`
+        : inCells ? layout === null ? "Change your layout and run it again, with your file in the place of LAYOUT:" : "To run it again, store the layout below in a file, and name the file in the place of LAYOUT; open or close a side in it, and another run comes of it:"
+          : "Change what you like and run it again:"}`;
   find("command").textContent = command ?? "";
   find("command").hidden = command === null;
   find("layout").textContent = layout ?? "";
