@@ -3,6 +3,8 @@
 
 use std::fmt::Write;
 
+use tautline_proofs::plural::counted;
+
 use crate::refuted::{Refutation, of};
 
 /// The refuted checks of which smaller counterexamples can be asked for.
@@ -16,7 +18,7 @@ fn table(is_wanted: impl Fn(&Refutation) -> bool) -> String {
         let (id, rule, size) = (clause.id, check.rule(), made.size());
         writeln!(table, "{id} {rule}: {size}").expect("text");
         if smallest != Some((class.clone(), moves)) {
-            writeln!(table, "  in the ledger: {class}, {moves} moves").expect("text");
+            writeln!(table, "  in the ledger: {class}, {}", counted(moves, "move")).expect("text");
         }
         for (class, cases) in &made.exhausted {
             writeln!(table, "  none in {class}: {cases}").expect("text");

@@ -37,16 +37,17 @@ pub(crate) struct DecidedRows<'a> {
     pub(crate) left: usize,
 }
 
+/// The line about checks that a signal has left, and about all that there are.
+fn not_decided(left: usize, of: usize) -> String {
+    let (are, them) = if left == 1 { ("is", "it") } else { ("are", "them") };
+    let of = counted(of, "check");
+    format!("A signal ended the work: {left} of {of} {are} not decided, and nothing is claimed of {them}.\n")
+}
+
 impl DecidedRows<'_> {
     /// The checks that a signal has left; nothing if there are none.
     fn interrupted(&self) -> Option<String> {
-        let of = counted(self.left + self.rows.len(), "check");
-        (self.left > 0).then(|| {
-            format!(
-                "A signal ended the work: {} of {of} are not decided, and nothing is claimed of them.\n",
-                self.left
-            )
-        })
+        (self.left > 0).then(|| not_decided(self.left, self.left + self.rows.len()))
     }
 
     /// Which rows were cut off, and what can be done about it; nothing if none were.
@@ -83,5 +84,20 @@ impl DecidedRows<'_> {
             })
         });
         found.chain(self.interrupted().map(|why| Ok(Case::left(why)))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_check_that_is_left_is_told_as_one() {
+        let told = [not_decided(1, 1), not_decided(1, 2), not_decided(2, 2)].concat();
+        insta::assert_snapshot!(told, @r"
+        A signal ended the work: 1 of 1 check is not decided, and nothing is claimed of it.
+        A signal ended the work: 1 of 2 checks is not decided, and nothing is claimed of it.
+        A signal ended the work: 2 of 2 checks are not decided, and nothing is claimed of them.
+        ");
     }
 }
