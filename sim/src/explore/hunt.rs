@@ -87,6 +87,7 @@ impl HuntRequest<'_> {
             max_losses: None,
             error_cells: None,
             range_cells: None,
+            equal_speeds: false,
             resume: None,
         }
     }

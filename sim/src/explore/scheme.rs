@@ -208,19 +208,6 @@ pub trait Hunt: fmt::Debug + Sync {
         asked
     }
 
-    /// As [`Hunt::hunt`], within the bounds in which the choices of the run of `setup` were found.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if it cannot be searched so.
-    fn hunt_again(
-        &self,
-        setup: &Setup,
-        asked: HuntRequest<'_>,
-        hunter: &mut dyn Hunter,
-    ) -> Result<HuntReport, Diagnostic> {
-        self.hunt(&self.again(setup, asked), hunter)
-    }
-
     /// The hunt as one that is dealt out among shards, if that is possible.
     fn deals(&self) -> Option<&dyn Deals> {
         None
@@ -260,6 +247,8 @@ pub struct HuntRequest<'a> {
     pub error_cells: Option<f64>,
     /// [`Bound::Range`], in cells.
     pub range_cells: Option<u16>,
+    /// Whether runs of robots at equal speeds alone are looked for.
+    pub equal_speeds: bool,
     /// [`Bound::Resume`]
     pub resume: Option<&'a Path>,
 }

@@ -59,7 +59,7 @@ pub(super) fn minimise(
                 max_walls,
                 ..HuntRequest::new(setup.scheme, setup.rule)
             };
-            let hunted = match hunt.hunt_again(setup, asked, &mut watcher) {
+            let hunted = match hunt.hunt(&hunt.again(setup, asked), &mut watcher) {
                 Ok(hunted) => hunted,
                 // A size without room for the robots is none to search.
                 Err(diagnostic) => {

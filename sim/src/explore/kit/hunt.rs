@@ -92,44 +92,20 @@ impl Hunt for KernelHunt {
     }
 
     fn again<'a>(&self, setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
-        HuntRequest { range_cells: setup.options.range_cells, ..asked }
-    }
-
-    /// The first choice says whether robots drive at equal speeds: then no other runs are hunted.
-    fn hunt_again(
-        &self,
-        setup: &Setup,
-        asked: HuntRequest<'_>,
-        hunter: &mut dyn Hunter,
-    ) -> Result<HuntReport, Diagnostic> {
-        let is_equal = setup.choices.first() == Some(&EQUAL_SPEEDS);
-        let speeds = if is_equal { Speeds::Equal } else { Speeds::Any };
-        self.hunt_at(speeds, &self.again(setup, asked), hunter)
+        // The first choice says whether robots drive at equal speeds.
+        let equal_speeds = setup.choices.first() == Some(&EQUAL_SPEEDS);
+        HuntRequest { range_cells: setup.options.range_cells, equal_speeds, ..asked }
     }
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
-        self.hunt_at(Speeds::Any, asked, hunter)
-    }
-}
-
-impl KernelHunt {
-    /// The hunt for runs at these speeds: at any, those at equal ones are among them.
-    fn hunt_at(
-        &self,
-        speeds: Speeds,
-        asked: &HuntRequest<'_>,
-        hunter: &mut dyn Hunter,
-    ) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked)?;
         let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
         let mut search = Search::new(asked, hunter);
-        let found = match (robots, speeds) {
-            (1, Speeds::Equal) => searched(rule, &[Pass::ALL_AT_EQUAL], itself::<1>(), size, &mut search),
-            (2, Speeds::Equal) => {
-                searched(rule, &[Pass::EQUAL, Pass::ALL_AT_EQUAL], IN_ONE_IMAGE, size, &mut search)
-            }
-            (1, _) => searched(rule, &[Pass::ALL], itself::<1>(), size, &mut search),
-            (2, _) => searched(rule, &[Pass::ALL, Pass::EQUAL], IN_ONE_IMAGE, size, &mut search),
+        let passes =
+            if asked.equal_speeds { [Pass::EQUAL, Pass::ALL_AT_EQUAL] } else { [Pass::ALL, Pass::EQUAL] };
+        let found = match robots {
+            1 => searched(rule, &[Pass::ALL], itself::<1>(), size, &mut search),
+            2 => searched(rule, &passes, IN_ONE_IMAGE, size, &mut search),
             _ => searched(rule, &[Pass::ALL, Pass::WHOLE], itself::<3>(), size, &mut search),
         }?;
         let Count { states, steps, cells, .. } = search.count;
@@ -179,8 +155,8 @@ fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usi
     'lattices: for &lattice in &lattices {
         for &pass in passes {
             // Runs at equal speeds are among those at any, if these are searched, too.
-            let has_any = passes.iter().any(|pass| pass.speeds == Speeds::Any);
-            let is_kept = has_any && all.iter().all(|broken| broken.demand != Demand::Contact);
+            let is_kept =
+                !search.asked.equal_speeds && all.iter().all(|broken| broken.demand != Demand::Contact);
             if pass.speeds == Speeds::Equal && is_kept {
                 continue;
             }
