@@ -90,12 +90,12 @@ pub struct Comparison {
     pub pairs: u32,
     /// Layouts in which there is not.
     pub left_out: u32,
-    /// The mean as published, over the pairs.
-    pub published: f64,
+    /// The mean as published, over the pairs; without pairs there is none.
+    pub published: Option<f64>,
     /// The mean repaired, over the pairs.
-    pub repaired: f64,
+    pub repaired: Option<f64>,
     /// The mean of repaired less published.
-    pub difference: f64,
+    pub difference: Option<f64>,
     /// Half the width of its 95 % interval; one pair gives none.
     pub margin: Option<f64>,
 }
@@ -225,7 +225,7 @@ fn compared(title: &str, lines: &[Line], number: impl Fn(&Line) -> &Comparison) 
         .number("repaired", 9, 2, |(_, both)| both.repaired)
         .right("difference", 15, |(_, both)| {
             let margin = both.margin.map_or_else(String::new, |margin| format!(" ± {margin:.2}"));
-            format!("{:+.2}{margin}", both.difference)
+            both.difference.map_or("-".to_owned(), |difference| format!("{difference:+.2}{margin}"))
         })
         .right("layouts", 7, |(_, both)| both.pairs)
         .right("left out", 8, |(_, both)| both.left_out)
@@ -314,9 +314,9 @@ impl PairMoments {
         }
     }
 
-    /// Without pairs everything is 0.
+    /// Without pairs there are no means.
     fn comparison(self, layouts: u32) -> Comparison {
-        let mean = |moments: Moments| hundredths(moments.estimate().map_or(0.0, |estimate| estimate.mean));
+        let mean = |moments: Moments| moments.estimate().map(|estimate| hundredths(estimate.mean));
         Comparison {
             pairs: self.difference.count(),
             left_out: layouts - self.difference.count(),
@@ -325,5 +325,19 @@ impl PairMoments {
             difference: mean(self.difference),
             margin: self.difference.estimate().and_then(Estimate::margin).map(hundredths),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_layouts_there_are_no_means() {
+        let none = PairMoments::default().comparison(1);
+        assert_eq!((none.pairs, none.left_out), (0, 1));
+        assert_eq!([none.published, none.repaired, none.difference, none.margin], [None; 4]);
+        let one = PairMoments::of(7, 5).comparison(1);
+        assert_eq!([one.published, one.repaired, one.difference], [Some(7.0), Some(5.0), Some(-2.0)]);
     }
 }
