@@ -9,6 +9,8 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards::{Gap, Plan, Work};
 #[cfg(feature = "papers")]
 use tautline_papers::shards::{merge_table, restored};
+#[cfg(feature = "papers")]
+use tautline_papers::tables::find;
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_sim::shards::{hunted, merge_hunt};
 
@@ -45,7 +47,8 @@ pub(super) struct Merge {
     /// stored here, and those of the library are not.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Store a picture of a table: its name, as `reproduce ID --help` tells it, and a file.
+    /// Store a picture of a table: its name, which is that of the option of `reproduce ID` that stores it, such as svg
+    /// for --svg, and a file.
     #[cfg_attr(not(feature = "papers"), arg(skip))]
     #[cfg_attr(feature = "papers", arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2))]
     #[cfg_attr(feature = "papers", arg(value_parser = value_parser!(PathBuf)))]
@@ -92,6 +95,13 @@ impl Merge {
             let path = self.plan.display();
             let why = format_args!("{path} is a plan of {of}, and only a table has pictures and values");
             refuse_needless(tables, why)?;
+        }
+        #[cfg(feature = "papers")]
+        if let Work::Table { id } = &plan.of
+            && let Some(table) = find(id)
+        {
+            let mut names = self.pictures.iter().step_by(2).map(|name| name.to_string_lossy());
+            names.try_for_each(|name| table.about().picture(&name).map(drop))?;
         }
         let shards = match plan.results(&files)? {
             Ok(shards) => shards,

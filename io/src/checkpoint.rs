@@ -79,7 +79,7 @@ pub fn encode(value: &impl Serialize) -> Result<Box<RawValue>, Diagnostic> {
 /// # Errors
 /// A [`Diagnostic`] with this `remedy` if it is none.
 pub fn decode<'a, T: Deserialize<'a>>(value: &'a RawValue, remedy: &str) -> Result<T, Diagnostic> {
-    serde_json::from_str(value.get()).map_err(|error| Diagnostic::usage(error, remedy))
+    json_lines::parse(value.get()).map_err(|(_, what)| Diagnostic::usage(what, remedy))
 }
 
 /// The first line of a file: what is worked at.

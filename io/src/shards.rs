@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 
 use crate::atomic_file::{AtomicFile, Replaceable};
 use crate::checkpoint::{self, Lines, Part, Task};
-use crate::diagnostic::{Diagnostic, Halt};
+use crate::diagnostic::{Diagnostic, Halt, Place};
 
 /// The most shards: more than there are machines.
 const MAX_SHARDS: u32 = 100_000;
@@ -219,6 +219,15 @@ impl Plan {
     /// Where it stands.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The fault in a `part` of the deal, as one of the plan's file: at its place, if it has one.
+    #[must_use]
+    pub fn fault(&self, part: &str, fault: &Diagnostic) -> Diagnostic {
+        let Place::Spot { column, .. } = fault.place() else { return fault.clone().found_in(&self.path) };
+        let deal = self.deal.get();
+        let at = deal.find(part).unwrap_or_default() + column - 1;
+        Diagnostic::in_line(&self.path, 2, deal, at..at + 1, fault.what(), fault.remedy())
     }
 
     /// Checks that it has this shard.

@@ -8,7 +8,7 @@ use tautline_io::shards::{Plan, ShardFile, Work};
 use tautline_proofs::engine::threads;
 use tautline_proofs::plural::counted;
 
-use crate::tables::{Experiment, find};
+use crate::tables::{AS_WRITTEN, Experiment, find};
 
 /// Jobs for each thread that are measured before the results are kept.
 const JOBS_AT_ONCE: usize = 8;
@@ -40,9 +40,6 @@ fn raw(text: String) -> Result<Box<RawValue>, Diagnostic> {
         .map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
 }
 
-/// The remedy for a plan or a shard that says no such thing.
-const AS_WRITTEN: &str = "take it as tautline wrote it";
-
 /// Deals the jobs of a table out.
 ///
 /// # Errors
@@ -55,14 +52,20 @@ pub fn deal_table(id: &str, asked: &dyn Experiment) -> Result<(Work, Box<RawValu
 /// The table that a plan deals out.
 ///
 /// # Errors
-/// [`Halt`] if it is none of a table, or has other jobs than its settings give.
+/// [`Halt`] if it is none of a table, a person could not give its settings, or it has other jobs than they give.
 pub fn restored(plan: &Plan) -> Result<Box<dyn Experiment>, Halt> {
     let none =
         || Diagnostic::usage("this plan is none of a table", "run it with the command that planned it");
     let Work::Table { id } = &plan.of else { return Err(none().into()) };
-    let deal: Deal = decode(&plan.deal, AS_WRITTEN)?;
-    let asked = find(id).ok_or_else(none)?.restored(deal.settings.get())?;
+    let table = find(id).ok_or_else(none)?;
+    let deal: Deal = decode(&plan.deal, AS_WRITTEN).map_err(|fault| fault.found_in(plan.path()))?;
+    let settings = deal.settings.get();
+    let asked = table.restored(settings).map_err(|fault| plan.fault(settings, &fault))?;
     let jobs = asked.jobs()?.len();
+    if jobs == 0 {
+        let what = "its settings give nothing to measure";
+        return Err(Diagnostic::in_file(plan.path(), what, AS_WRITTEN).into());
+    }
     if jobs != deal.jobs {
         let what = format!("{} are dealt out, and its settings give {jobs}", counted(deal.jobs, "job"));
         return Err(Diagnostic::in_file(plan.path(), what, AS_WRITTEN).into());

@@ -34,6 +34,7 @@ mod runs;
 pub mod sentences;
 mod table;
 
+pub(crate) use self::entry::AS_WRITTEN;
 pub use self::entry::{Entry, Experiment, Report};
 pub use self::table::{Description, Observer, Results, Table, Threads, measure};
 

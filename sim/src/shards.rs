@@ -8,6 +8,9 @@ use tautline_io::shards::{Plan, ShardFile, Work};
 use crate::explore::Catalogue;
 use crate::explore::hunt::{Deals, Dealt, HuntReport, HuntRequest};
 
+/// The remedy for a plan that deals out what no hunt has.
+const ANEW: &str = "take it as tautline wrote it, or plan anew";
+
 /// The hunt that is asked for, if it can be dealt out.
 fn deals(asked: &HuntRequest<'_>) -> Result<&'static dyn Deals, Diagnostic> {
     let &HuntRequest { scheme, rule, .. } = asked;
@@ -58,7 +61,9 @@ pub fn hunt_part(
     far: Option<&RawValue>,
 ) -> Result<Box<dyn Part>, Diagnostic> {
     plan.check_shard(shard)?;
-    deals(asked)?.part(asked, &plan.deal, (shard as usize - 1, plan.shards as usize), far)
+    let part = deals(asked)?.part(asked, &plan.deal, (shard as usize - 1, plan.shards as usize), far);
+    // Before a shard has begun, nothing but the plan can be at fault.
+    part.map_err(|fault| if far.is_none() { fault.with_remedy(ANEW).found_in(plan.path()) } else { fault })
 }
 
 /// The report of what all shards of the hunt that is `asked` for have found.

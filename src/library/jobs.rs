@@ -102,7 +102,8 @@ impl Dealt {
             let what = "this plan is none of the library";
             return Err(Diagnostic::usage(what, "run it with the command that planned it"));
         };
-        Ok(Self::of(&clauses(&chosen(rules)?, *larger), plan.shards))
+        let rules = chosen(rules).map_err(|fault| fault.found_in(plan.path()))?;
+        Ok(Self::of(&clauses(&rules, *larger), plan.shards))
     }
 
     /// The jobs of a shard.

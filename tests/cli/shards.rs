@@ -219,6 +219,10 @@ fn a_plan_with_numbers_that_contradict_each_other_is_refused_and_how_many_shards
         (&layouts[..], "\"how\":null", "\"how\":2147483648", "plan anew"),
         (&table, "\"layouts\":2", "\"layouts\":1000000", "14 jobs are dealt out, and its settings give 7000"),
         (&table, "\"jobs\":14", "\"jobs\":15", "15 jobs are dealt out, and its settings give 14"),
+        (&table, "\"layouts\":2", "\"layouts\":0", "plan.json: its settings have --runs 0: "),
+        (&table, "\"layouts\":2", "\"layouts\":1000000000000", "plan.json:2:36"),
+        (&layouts, "\"size\":[3,2]", "\"size\":[30,2]", "plan.json: 30x2 cells are 60"),
+        (&["hunt", "--robots", "2", "--max-walls", "1"], "\"max_walls\":1", "\"max_walls\":3", "plan.json: "),
     ] {
         changed(work, from, to);
         let said = refused(folder, &[work[0], "--plan", "plan.json", "--shard", "1"]);
@@ -242,8 +246,10 @@ fn the_shards_of_a_table_give_what_one_process_gives() {
     let bare = &folder();
     planned(bare, &["reproduce", "repair-cost", "--runs", "2"], "1");
     shards_done(bare, "reproduce", [1]);
-    let (_, said) = super::files::left_out(bare, &["merge", "plan.json", "--picture", "a", "b.svg"]);
+    let said = refused(bare, &["merge", "plan.json", "--picture", "a", "b.svg"]);
     assert!(said.contains("leave it out: this table has no pictures"), "{said}");
+    let said = refused(many, &["merge", "plan.json", "--picture", "walked", "cost.svg", "--force"]);
+    assert!(said.contains("ask for one of svg"), "{said}");
     let said = refused(many, &["merge", "plan.json", "--out", "found"]);
     assert!(said.contains("--out has no effect: a table has no counterexamples"), "{said}");
     assert_eq!(read(many, "cost.svg"), read(one, "cost.svg"));

@@ -7,10 +7,10 @@ use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_io::schema;
+use tautline_io::{json_lines, schema};
 
 use super::csv::csv;
-use super::parameter::TableOption;
+use super::parameter::{Parameter, TableOption, Values};
 use super::sentences::{self, Judgement};
 use super::table::{Description, Observer, Table, measure};
 
@@ -40,9 +40,12 @@ pub trait Entry: fmt::Debug + Sync {
     /// The table with settings as [`Experiment::settings`] gave them.
     ///
     /// # Errors
-    /// A [`Diagnostic`] if they are none.
+    /// A [`Diagnostic`] if they are none, or a person could not give them.
     fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Experiment + 'a>, Diagnostic>;
 }
+
+/// The remedy for settings, jobs and results that are none.
+pub(crate) const AS_WRITTEN: &str = "take it as tautline wrote it";
 
 /// A table with its settings.
 pub trait Experiment: Sync {
@@ -143,7 +146,22 @@ impl<T: Table> Entry for T {
     }
 
     fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Experiment + 'a>, Diagnostic> {
-        Ok(Box::new(TableExperiment { table: self, settings: read(settings)? }))
+        let id = Table::about(self).id;
+        let restored: T::Settings = json_lines::parse(settings)
+            .map_err(|(column, what)| Diagnostic::at(id, settings, column..column + 1, what, AS_WRITTEN))?;
+        for Parameter { option: TableOption { name, values, .. }, show, .. } in self.parameters() {
+            let texts = show(&restored);
+            let mut texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+            if values == Values::List {
+                texts = texts.iter().flat_map(|text| text.split(',')).collect();
+            }
+            for text in texts {
+                self.check(name, text).map_err(|hint| {
+                    Diagnostic::usage(format_args!("its settings have --{name} {text}: {hint}"), AS_WRITTEN)
+                })?;
+            }
+        }
+        Ok(Box::new(TableExperiment { table: self, settings: restored }))
     }
 }
 
@@ -174,7 +192,7 @@ fn written(value: &impl Serialize) -> Result<String, Diagnostic> {
 }
 
 fn read<V: DeserializeOwned>(text: &str) -> Result<V, Diagnostic> {
-    serde_json::from_str(text).map_err(|error| Diagnostic::usage(error, "take it as tautline wrote it"))
+    json_lines::parse(text).map_err(|(_, what)| Diagnostic::usage(what, AS_WRITTEN))
 }
 
 impl<T: Table> Experiment for TableExperiment<'_, T> {
@@ -223,14 +241,7 @@ impl<T: Table> Report for TableReport<'_, T> {
 
     fn picture(&self, name: &str) -> Result<String, Halt> {
         let TableExperiment { table, settings } = self.asked;
-        let names: Vec<&str> = Table::about(*table).pictures.iter().map(|&(name, _)| name).collect();
-        let place = names.iter().position(|&known| known == name).ok_or_else(|| {
-            let remedy = match names[..] {
-                [] => "leave it out: this table has no pictures".to_owned(),
-                _ => format!("ask for one of {}", names.join(", ")),
-            };
-            Diagnostic::usage(format_args!("there is no picture {name}"), remedy)
-        })?;
+        let place = Table::about(*table).picture(name)?;
         table.draw(place, settings, &self.merged)
     }
 

@@ -136,6 +136,21 @@ impl Description {
         why_none: "the table is ours, and no paper has it",
         pictures: &[],
     };
+
+    /// The place of the picture of this name among all.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] that tells the names that there are.
+    pub fn picture(&self, name: &str) -> Result<usize, Diagnostic> {
+        let names: Vec<&str> = self.pictures.iter().map(|&(name, _)| name).collect();
+        names.iter().position(|&known| known == name).ok_or_else(|| {
+            let remedy = match names[..] {
+                [] => "leave it out: this table has no pictures".to_owned(),
+                _ => format!("ask for one of {}", names.join(", ")),
+            };
+            Diagnostic::usage(format_args!("there is no picture {name}"), remedy)
+        })
+    }
 }
 
 /// Jobs of a table with their results, in their order.
