@@ -289,6 +289,7 @@ fn in_words_of_json(message: &str) -> String {
         _ => match expected {
             "a map" => "an object",
             "a sequence" => "a list",
+            _ if expected.starts_with("a nonzero u") => "a whole number from 1 on that is not too large",
             _ => return message,
         },
     };

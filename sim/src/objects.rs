@@ -23,7 +23,7 @@ const MOST: usize = 1000;
 
 /// The objects of a run.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "objects are a number from 1 to 1000, or columns and rows such as [[1.5,2]]")]
 pub enum Objects {
     /// So many, each somewhere in a cell that the robots can reach.
     Count(u16),
@@ -181,6 +181,12 @@ pub fn table(objects: &[ObjectReport]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn objects_that_are_none_are_told_what_would_be_right() {
+        let (_, said) = tautline_io::json_lines::parse::<Objects>("1000000").expect_err("too many");
+        assert_eq!(said, "objects are a number from 1 to 1000, or columns and rows such as [[1.5,2]]");
+    }
 
     #[test]
     fn objects_are_written_as_they_are_read() {

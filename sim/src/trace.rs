@@ -133,8 +133,13 @@ impl Trace {
         let (limits, numbered_from) = (header.limits, header.numbered_from);
         let setup = Setup { limits, ..header.setup(scheme, rule, layout) };
         setup.check().map_err(|fault| {
-            let field = fault.field().unwrap_or_default();
-            lines.fault(text, field, fault.what(), fault.remedy())
+            let key = key_for(text, fault.field().unwrap_or_default());
+            // The field's name on the command line is no word of the file.
+            let in_file = |words: &str| match (key, fault.field()) {
+                (Some(key), Some(field)) if key != field => words.replace(&format!("`{field}`"), key),
+                _ => words.to_owned(),
+            };
+            lines.fault(text, key.unwrap_or_default(), in_file(fault.what()), in_file(fault.remedy()))
         })?;
         Ok(Self { setup, clause, numbered_from, lines })
     }
@@ -159,6 +164,16 @@ impl Trace {
         lines.end()?;
         Ok(report)
     }
+}
+
+/// The key of a header that tells the field of this name, which may have a unit behind it: `noise_db` of `noise-db`.
+fn key_for<'t>(text: &'t str, field: &str) -> Option<&'t str> {
+    let begin = format!("\"{}", field.replace('-', "_"));
+    let mut keys = text.match_indices(&begin).filter(|_| !field.is_empty()).filter_map(|(at, _)| {
+        let key = text[at + 1..].split('"').next()?;
+        Some(key).filter(|key| text[at + 1 + key.len()..].starts_with("\":"))
+    });
+    keys.find(|key| matches!(key.as_bytes().get(begin.len() - 1), None | Some(b'_')))
 }
 
 /// The name of the file of a run that breaks `clause`. The scheme is in it unless the clause tells it.
@@ -292,6 +307,13 @@ pub fn text(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Halt> {
 mod tests {
     use super::*;
     use crate::explore::RuleName;
+
+    #[test]
+    fn the_key_of_a_field_may_have_a_unit() {
+        let text = r#"{"scheme":"chain","sighted":1,"noise_db":-1,"sight_cells":5,"robots":2}"#;
+        let keys = ["noise-db", "sight", "robots", "seed", ""].map(|field| key_for(text, field));
+        assert_eq!(keys, [Some("noise_db"), Some("sight_cells"), Some("robots"), None, None]);
+    }
 
     #[test]
     fn runs_of_two_schemes_have_two_names() {

@@ -2,9 +2,11 @@
 //! edges it tries. A run goes on after a violation, so that its cost can be compared. Any team can be run, of this
 //! program or not.
 
+use std::fmt;
 use std::num::NonZeroU32;
 
 use schemars::JsonSchema;
+use serde::de::{self, Deserializer, Unexpected, Visitor};
 use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::Halt;
 use tautline_io::named_values::NamedValues;
@@ -73,7 +75,7 @@ impl OnViolation {
 }
 
 /// A share of the free cells of the area.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize)]
 pub enum Milestone {
     /// 50 %
     #[serde(rename = "50")]
@@ -89,6 +91,28 @@ pub enum Milestone {
 impl NamedValues for Milestone {
     const WORDS: &'static [(Self, &'static str, &'static str)] =
         &[(Self::Half, "50", "50 %"), (Self::ThreeQuarters, "75", "75 %"), (Self::Whole, "100", "100 %")];
+}
+
+impl<'de> Deserialize<'de> for Milestone {
+    fn deserialize<D: Deserializer<'de>>(input: D) -> Result<Self, D::Error> {
+        /// Says which words there are, also where there is no word.
+        struct Word;
+
+        impl Visitor<'_> for Word {
+            type Value = Milestone;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(r#""50", "75" or "100""#)
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<Milestone, E> {
+                <Milestone as NamedValues>::of(word)
+                    .ok_or_else(|| E::invalid_value(Unexpected::Str(word), &self))
+            }
+        }
+
+        input.deserialize_str(Word)
+    }
 }
 
 impl Milestone {
@@ -380,5 +404,27 @@ fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<StopReason>
         Some(StopReason::MaxMoves)
     } else {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_io::json_lines::parse;
+
+    use super::*;
+
+    #[test]
+    fn limits_that_are_none_are_told_what_would_be_right() {
+        let said = |until: &str, most: &str| {
+            let text = format!(r#"{{"until":{until},"max_moves":{most},"violation":"go-on"}}"#);
+            parse::<Limits>(&text).map_err(|(_, said)| said)
+        };
+        let milestones = r#"expected "50", "75" or "100""#;
+        assert_eq!(said("33", "7"), Err(format!("invalid type: integer `33`, {milestones}")));
+        assert_eq!(said("\"33\"", "7"), Err(format!("invalid value: string \"33\", {milestones}")));
+        let whole = "expected a whole number from 1 on that is not too large";
+        assert_eq!(said("null", "0"), Err(format!("invalid value: integer `0`, {whole}")));
+        let limits = said("\"75\"", "7").expect("limits");
+        assert_eq!((limits.until, limits.max_moves), (Some(Milestone::ThreeQuarters), NonZeroU32::new(7)));
     }
 }
