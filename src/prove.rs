@@ -297,6 +297,8 @@ impl DecisionArgs {
         out.store(page, |page| page.draw(html::report(rows, &ledger()?)))?;
         match (self.format.format, detail) {
             (Format::Json, _) => out.json(&ledger()?)?,
+            // Of nothing there is no table.
+            (Format::Text, _) if rows.is_empty() && left > 0 => out.text(&unfinished)?,
             (Format::Text, detail) => {
                 if detail != Detail::Screen {
                     out.text(table(rows))?;

@@ -36,8 +36,10 @@ pub(crate) fn rule() -> impl TypedValueParser<Value = RuleId> {
 
 /// Reads a text that may name a file.
 pub(crate) fn file_or_word() -> impl TypedValueParser<Value = String> {
-    OsStringValueParser::new()
-        .try_map(|text| text.into_string().map_err(|_| "rename the file, so that its name is UTF-8"))
+    OsStringValueParser::new().try_map(|text| {
+        let text = text.into_string().map_err(|_| "rename the file, so that its name is UTF-8")?;
+        if text.is_empty() { Err("it is empty, so name a file") } else { Ok(text) }
+    })
 }
 
 /// Any word; those of all schemes are what a shell completes.

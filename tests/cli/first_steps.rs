@@ -64,6 +64,24 @@ fn a_wrong_name_is_answered_with_the_names_there_are() {
 }
 
 #[test]
+fn walls_that_nobody_has_asked_for_are_no_more_than_fit() {
+    let folder = &folder();
+    for (robots, size, walls) in [("4", "1x1", 0), ("2", "127x1", 2)] {
+        let hunted = json(folder, &["hunt", "--robots", robots, "--size", size], 0);
+        assert_eq!(hunted["max_walls"], walls, "{size}");
+    }
+    says(&refused(folder, &["hunt", "--robots", "2", "--size", "127x1", "--max-walls", "3"]), &["edges (2)"]);
+}
+
+#[test]
+fn a_layout_without_a_name_is_refused() {
+    let folder = &folder();
+    for command in ["explore", "show"] {
+        says(&refused(folder, &[command, ""]), &["'<LAYOUT>'", "it is empty, so name a file"]);
+    }
+}
+
+#[test]
 fn hunt_offers_the_schemes_of_which_something_is_hunted_and_no_others() {
     let folder = &folder();
     let (listed, help) = (json(folder, &["schemes"], 0), printed(folder, &["hunt", "--help"], 0));

@@ -94,7 +94,7 @@ impl Refusal {
 }
 
 sentences!(Refusal {
-    Self::Anchors(count) => "anchors, of which there are {count}, do not tell a position";
+    Self::Anchors(count) => "no position follows from {count} anchor{}", if count == 1 { "" } else { "s" };
     Self::NotFinite(anchor) => "a number of anchor {} is infinite, too large or none", anchor + 1;
     Self::Negative(anchor) => "the distance of anchor {} is negative", anchor + 1;
     Self::Zero(anchor) => "the distance of anchor {} is too small for a level in decibels", anchor + 1;

@@ -81,7 +81,7 @@ impl<C: Crew> Each for Traps<C> {
         let agents = asked.robots.unwrap_or(DEFAULT_AGENTS);
         let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
         let agents = fitting.ok_or_else(|| {
-            let what = format!("a hunt for traps of {agents} agents");
+            let what = format!("there is no hunt for traps of {agents} agents");
             let remedy = format_args!("give `robots` a number from 1 to {MAX_AGENTS}");
             Diagnostic::of_field("robots", what, remedy)
         })?;

@@ -45,7 +45,9 @@ pub fn bounds(
             1 => "the base alone".to_owned(),
             _ => format!("{robots} robots"),
         };
-        let remedy = format_args!("give `robots` a number from 2 to {MOST_ROBOTS}, the base counted");
+        let remedy = format_args!(
+            "give `robots` a number from 2 to {MOST_ROBOTS}, the base counted; the most of them need a small `size`"
+        );
         Diagnostic::of_field("robots", format_args!("{what} cannot be the team"), remedy)
     })?;
     let invariants = Invariant::of_hunts(&observed.intended);
@@ -96,7 +98,13 @@ pub(super) fn fault(refused: Unsearchable, robots: usize) -> Diagnostic {
             let more = if is_smaller { "a larger `size`" } else { "more `robots`" };
             ("max-walls", format!("give `max-walls` a number up to {edges}, or {more}"))
         }
-        tree::Unsearchable::TooLarge { .. } => ("size", "give fewer `robots` or a smaller `size`".to_owned()),
+        tree::Unsearchable::TooLarge { .. } => {
+            let side = (2 * robots).saturating_sub(1);
+            (
+                "size",
+                format!("give fewer `robots` or a smaller `size`; without it there are {side}x{side} cells"),
+            )
+        }
         tree::Unsearchable::Beyond { walls } => {
             ("max-walls", format!("give `max-walls` {walls} or more, or another `resume` file"))
         }

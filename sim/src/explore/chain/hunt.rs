@@ -84,7 +84,14 @@ impl OngoingHunt for BegunWalls {
 impl Walls {
     fn bounds(&self, asked: &HuntRequest<'_>) -> Result<Bounds, Diagnostic> {
         let (robots, walls) = team(asked);
-        Ok(Bounds { budget_moves: asked.budget, ..bounds(self.0, robots, walls, asked.size)? })
+        let mut bounds = Bounds { budget_moves: asked.budget, ..bounds(self.0, robots, walls, asked.size)? };
+        // Walls that nobody has asked for are no more than there can be.
+        if asked.max_walls.is_none()
+            && let Ok(reach) = bounds.reach()
+        {
+            bounds.max_walls = walls.min(reach.edges().count() as u32);
+        }
+        Ok(bounds)
     }
 }
 
