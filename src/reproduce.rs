@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::error::ErrorKind;
+use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, Subcommand};
 use indicatif::ProgressBar;
 use schemars::JsonSchema;
@@ -23,7 +24,7 @@ use tautline_proofs::plural::counted;
 
 use super::exit::Exit;
 use super::options::{ForceArgs, Format, FormatArgs};
-use super::output::{Output, SCHEMA_VERSION};
+use super::output::{self, Output, SCHEMA_VERSION};
 use super::{ascii, interrupt, progress, shards};
 
 const EXAMPLES: &str = "\
@@ -57,6 +58,8 @@ struct Request {
     table: &'static dyn Entry,
     /// The options that are given, with their values.
     given: Vec<(String, Vec<String>)>,
+    /// Those that the user has typed, as a shell takes them.
+    typed: String,
     /// Its pictures.
     pictures: Pictures,
     /// Where its values are to be stored.
@@ -121,7 +124,8 @@ impl Request {
         let Description { id, doing, .. } = self.table.about();
         match Show::over(doing, |show| asked.run(show)) {
             (Err(Halt::Interrupted), [done, parts]) => {
-                let left = InterruptedTable { id, complete: false, parts, parts_done: done };
+                let left =
+                    InterruptedTable { id, complete: false, parts, parts_done: done, options: &self.typed };
                 match self.format.format {
                     Format::Json => out.json(&left)?,
                     Format::Text => out.text(left)?,
@@ -154,21 +158,24 @@ pub(super) struct PlanFacts {
 
 /// A table that a signal has left: of some of its parts no figure is made.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct InterruptedTable {
+pub(super) struct InterruptedTable<'a> {
     id: &'static str,
     /// False.
     complete: bool,
     parts: u64,
     parts_done: u64,
+    /// The options of the table that the user has typed.
+    #[serde(skip)]
+    options: &'a str,
 }
 
-impl fmt::Display for InterruptedTable {
+impl fmt::Display for InterruptedTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { id, parts, parts_done, .. } = self;
+        let Self { id, parts, parts_done, options, .. } = self;
         writeln!(
             f,
             "A signal ended the work: {parts_done} of {} of {id} are done, and of a part no figure is claimed.\n\
-             To go on after a signal, deal the table out: tautline reproduce {id} --plan plan.json --shards 1,\n\
+             To go on after a signal, deal the table out: tautline reproduce {id}{options} --plan plan.json --shards 1,\n\
              and then tautline reproduce --plan plan.json --shard 1 until it is done; tautline merge plan.json.",
             counted(*parts, "part"),
         )
@@ -246,9 +253,11 @@ impl FromArgMatches for Request {
         let path = |name: &str| matches.get_one::<PathBuf>(name).cloned();
         let pictures = table.about().pictures.iter().map(|&(name, _)| (name.to_owned(), path(name)));
         let dealt = path("plan").zip(matches.get_one::<u32>("shards").copied());
+        let given: Vec<_> = table.options().into_iter().filter_map(|(option, _)| given(option)).collect();
         Ok(Self {
             table,
-            given: table.options().into_iter().filter_map(|(option, _)| given(option)).collect(),
+            typed: typed(table, &given, |name| matches.value_source(name) == Some(ValueSource::CommandLine)),
+            given,
             pictures: pictures.collect(),
             csv: path("csv"),
             dealt,
@@ -261,6 +270,24 @@ impl FromArgMatches for Request {
         *self = Self::from_arg_matches(matches)?;
         Ok(())
     }
+}
+
+/// The options of a table that the user has typed, as a shell takes them, a blank before each.
+fn typed(table: &dyn Entry, given: &[(String, Vec<String>)], is_typed: impl Fn(&str) -> bool) -> String {
+    let word = |(name, texts): &(String, Vec<String>)| {
+        let is_list =
+            table.options().iter().any(|(option, _)| option.name == name && option.values == Values::List);
+        let texts = if is_list { vec![texts.join(",")] } else { texts.clone() };
+        match texts[..] {
+            [] => format!(" --{name}"),
+            _ => texts
+                .iter()
+                .map(|text| format!(" --{name}={}", output::argument(text)))
+                .collect::<Vec<_>>()
+                .concat(),
+        }
+    };
+    given.iter().filter(|(name, _)| is_typed(name)).map(word).collect()
 }
 
 /// The command that measures a table.
@@ -364,5 +391,19 @@ impl Observer for Show {
             self.bar.set_prefix(what.to_owned());
         }
         if progress::show(&self.bar, progress).is_break() { Err(Halt::Interrupted) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hint_after_a_signal_has_the_options_that_the_user_has_typed() {
+        let line = "reproduce notice-fig5 --nodes 300,500 --k 1,3 --runs 5000 --csv values.csv";
+        let matches =
+            Request::augment_subcommands(Command::new("reproduce")).get_matches_from(line.split(' '));
+        let request = Request::from_arg_matches(&matches).expect("a request");
+        assert_eq!(request.typed, " --nodes=300,500 --k=1,3 --runs=5000");
     }
 }
