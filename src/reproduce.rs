@@ -125,7 +125,7 @@ impl Request {
         match Show::over(doing, |show| asked.run(show)) {
             (Err(Halt::Interrupted), [done, parts]) => {
                 let left =
-                    InterruptedTable { id, complete: false, parts, parts_done: done, options: &self.typed };
+                    InterruptedTable { id, complete: false, parts, parts_done: done, typed: &self.typed };
                 match self.format.format {
                     Format::Json => out.json(&left)?,
                     Format::Text => out.text(left)?,
@@ -166,16 +166,16 @@ pub(super) struct InterruptedTable<'a> {
     parts_done: u64,
     /// The options of the table that the user has typed.
     #[serde(skip)]
-    options: &'a str,
+    typed: &'a str,
 }
 
 impl fmt::Display for InterruptedTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { id, parts, parts_done, options, .. } = self;
+        let Self { id, parts, parts_done, typed, .. } = self;
         writeln!(
             f,
             "A signal ended the work: {parts_done} of {} of {id} are done, and of a part no figure is claimed.\n\
-             To go on after a signal, deal the table out: tautline reproduce {id}{options} --plan plan.json --shards 1,\n\
+             To go on after a signal, deal the table out: tautline reproduce {id}{typed} --plan plan.json --shards 1,\n\
              and then tautline reproduce --plan plan.json --shard 1 until it is done; tautline merge plan.json.",
             counted(*parts, "part"),
         )
