@@ -56,6 +56,8 @@ Examples:
 /// Of `kit`, search all walls, starts and orders on small lattices for runs in which robots lose contact, come too
 /// near, wait for each other for ever, or leave a path out. Of `frontier`, search all obstacles, starts and orders in
 /// small areas for runs in which robots come into one cell, leave cells unexplored, or go on for ever.
+///
+/// A run without end is stored up to where it comes back to where it was; of a chain it is told, and not stored.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Hunt {
