@@ -257,6 +257,7 @@ impl Hunt {
             max_losses: self.max_losses,
             error_cells: self.error,
             range_cells: self.range,
+            equal_speeds: false,
             resume: self.resume.as_deref(),
         }
     }
