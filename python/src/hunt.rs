@@ -119,6 +119,7 @@ pub(crate) fn hunt(
         max_losses: Int::optional(max_losses, py, "max_losses", 0..=u8::MAX)?,
         error_cells: error,
         range_cells: Int::optional(message_range, py, "message_range", 0..=u16::MAX)?,
+        equal_speeds: false,
         resume: None,
     };
     let found = wait_for(py, |is_stopped| {

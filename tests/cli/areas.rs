@@ -124,7 +124,7 @@ fn an_area_too_small_for_the_team_is_refused_with_what_would_be_right() {
         }
     }
     assert!(told > 10, "{told}");
-    let chain = refused(folder, &["hunt", "--size", "1x1", "--robots", "3"]);
+    let chain = refused(folder, &["hunt", "--size", "1x1", "--robots", "3", "--max-walls", "1"]);
     assert!(chain.contains("give --max-walls a number up to 0, or a larger --size"), "{chain}");
     assert!(names(folder).is_empty());
 }

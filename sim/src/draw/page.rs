@@ -63,7 +63,7 @@ impl Sink for String {
 struct Page<'a> {
     sink: &'a mut dyn Sink,
     run: &'a dyn Play,
-    /// What has made its layout, if that is known.
+    /// The generator of its layout, if that is known.
     generator: Option<&'a Generator>,
     report: &'a Report,
     moves: RangeInclusive<u32>,
