@@ -298,7 +298,7 @@ mod tests {
 
     /// By the letter of the paper's steps, which count from 1 and end at the last, particles move two times less.
     #[test]
-    fn with_two_moves_less_an_inertia_that_falls_just_misses_5_cm() {
+    fn with_two_moves_less_the_published_order_still_comes_within_5_cm() {
         let settings = Field { noise_db: 1.0, exponent: 2.0, trials: 10_000, seed: 0 };
         let (anchors, signal) = field(&settings).unwrap_or_else(|_| panic!("a field"));
         let optimum_mm = |(_, order, draws, parameters): (_, _, _, Parameters), iterations| {
@@ -307,6 +307,6 @@ mod tests {
             (end.optimum_m * 1e3).round() as u32
         };
         assert_eq!(VARIANTS.map(|variant| optimum_mm(variant, 20)), [41, 61, 46, 3, 5, 3]);
-        assert_eq!(VARIANTS.map(|variant| optimum_mm(variant, 18)), [45, 64, 51, 4, 6, 4]);
+        assert_eq!(VARIANTS.map(|variant| optimum_mm(variant, 18)), [45, 63, 50, 4, 6, 4]);
     }
 }
