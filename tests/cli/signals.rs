@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
 use serde_json::Value;
 
@@ -14,13 +14,23 @@ const THREADS: &str = "16";
 
 /// The output of a command that gets a Ctrl-C when it has said `words` in so many lines of its log. Nothing depends on
 /// how fast it is, as long as it has more to do than takes a machine a second or two.
-fn ended(folder: &Path, arguments: &[&str], (words, times): (&str, usize)) -> Output {
+fn ended(folder: &Path, arguments: &[&str], said: (&str, usize)) -> Output {
+    ended_by(|child| files::send("-INT", child), folder, arguments, said)
+}
+
+/// As [`ended`], by other signals.
+fn ended_by(
+    send: impl FnOnce(&Child),
+    folder: &Path,
+    arguments: &[&str],
+    (words, times): (&str, usize),
+) -> Output {
     let mut command = tautline(folder, &[LOG, arguments].concat());
     command.env("RAYON_NUM_THREADS", THREADS).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("the program runs");
     let mut log = BufReader::new(child.stderr.take().expect("a pipe")).lines().map_while(Result::ok);
     let said = log.by_ref().filter(|line| line.contains(words)).take(times).count();
-    files::send("-INT", &child);
+    send(&child);
     // It waits for whoever reads its log.
     let rest = std::thread::spawn(move || log.collect::<Vec<_>>().join("\n"));
     let output = child.wait_with_output().expect("it ends");
@@ -38,23 +48,6 @@ fn told(output: &Output) -> String {
 
 fn value(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
-}
-
-/// `timeout` sends a signal to the process, and to the group in which it is.
-#[test]
-fn a_signal_that_comes_twice_at_once_is_one() {
-    let folder = &folder();
-    for _ in 0..20 {
-        let mut command = tautline(folder, &["-vv", "hunt", "--robots", "5", "--max-walls", "5"]);
-        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program runs");
-        std::thread::sleep(std::time::Duration::from_millis(150));
-        let id = child.id().to_string();
-        let twice = ["-c", "kill -TERM $0; kill -TERM $0", &id];
-        assert!(std::process::Command::new("sh").args(twice).status().is_ok_and(|status| status.success()));
-        let output = child.wait_with_output().expect("it ends");
-        assert_eq!(output.status.code(), Some(3), "{output:?}");
-        says(&told(&output), &["the hunt was ended before"]);
-    }
 }
 
 /// A clause that is decided at once.
@@ -98,8 +91,23 @@ fn no_folder_stays_that_was_made_for_nothing() {
 #[test]
 fn random_runs_of_the_library_end_with_the_checks_that_they_were_made_for() {
     let folder = &folder();
-    let runs = ["library", "pibt", "--larger", "--runs", "9999999999", "--format", "json"];
-    assert_eq!(value(&ended(folder, &runs, ("hunting: ", 1)))["complete"], false);
+    assert_eq!(value(&ended(folder, &RUNS, ("hunting: ", 1)))["complete"], false);
+}
+
+/// Random runs without end.
+const RUNS: [&str; 7] = ["library", "pibt", "--larger", "--runs", "9999999999", "--format", "json"];
+
+/// `timeout` sends a signal to the process, and to the group in which it is.
+#[test]
+fn a_signal_that_comes_twice_at_once_is_one() {
+    let folder = &folder();
+    let twice = |child: &Child| {
+        let kill = ["-c", "kill -TERM $0; kill -TERM $0", &child.id().to_string()];
+        assert!(Command::new("sh").args(kill).status().is_ok_and(|status| status.success()));
+    };
+    for _ in 0..5 {
+        assert_eq!(value(&ended_by(twice, folder, &RUNS, ("hunting: ", 1)))["complete"], false);
+    }
 }
 
 /// Whether a campaign that was ended when its log says that so many parts are `begun`, and with them the first,
