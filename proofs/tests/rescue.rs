@@ -204,26 +204,22 @@ fn over_reliable_links_and_with_a_new_rid_for_each_event_a_window_with_answers_b
     use Demand::*;
     let window = Rule::PUBLISHED.with(Condition::ChoiceStands).with(Condition::Window);
     let answered = window.with(Condition::AnswersAgain);
-    let published = |rule: Rule| (rule, RobotReading::PUBLISHED);
-    for (robots_wfrs, max_hops) in [((2, 2), 2), ((2, 3), 1), ((3, 2), 1)] {
-        assert_eq!(broken_over_reliable_links(published(answered), robots_wfrs, max_hops), [CountsOnConsent]);
-    }
-    assert_eq!(broken_over_reliable_links(published(window), (2, 2), 2), [CountsOnConsent, TellsWhoAsked]);
-    assert_eq!(
-        broken_over_reliable_links(published(window), (2, 3), 1),
-        [CountsOnConsent, IsServed, TellsWhoAsked]
-    );
-    let anew =
-        [OneRobotForACall, BestOfTheWindow, CountsOnConsent, IsServed, TakesWhatItAsksFor, TellsWhoAsked];
-    assert_eq!(broken_over_reliable_links(published(Rule::PUBLISHED), (2, 2), 2), anew);
-    // Where a robot asks later, or each packet makes a record, of which there is one for each call here.
-    for (records, start) in [(ByPacket, AtOnce), (ByWfr, Later), (ByPacket, Later)] {
+    // Whichever packets make a record (here one of each call comes), and whenever a robot asks.
+    for (records, start) in [(ByWfr, AtOnce), (ByPacket, AtOnce), (ByWfr, Later), (ByPacket, Later)] {
         let reading = RobotReading { records, start, ..RobotReading::PUBLISHED };
         for (robots_wfrs, max_hops) in [((2, 2), 2), ((2, 3), 1), ((3, 2), 1)] {
             let broken = broken_over_reliable_links((answered, reading), robots_wfrs, max_hops);
             assert_eq!(broken, [CountsOnConsent], "{reading:?}");
         }
     }
+    let broken = |rule, robots_wfrs, max_hops| {
+        broken_over_reliable_links((rule, RobotReading::PUBLISHED), robots_wfrs, max_hops)
+    };
+    assert_eq!(broken(window, (2, 2), 2), [CountsOnConsent, TellsWhoAsked]);
+    assert_eq!(broken(window, (2, 3), 1), [CountsOnConsent, IsServed, TellsWhoAsked]);
+    let anew =
+        [OneRobotForACall, BestOfTheWindow, CountsOnConsent, IsServed, TakesWhatItAsksFor, TellsWhoAsked];
+    assert_eq!(broken(Rule::PUBLISHED, (2, 2), 2), anew);
 }
 
 #[test]
