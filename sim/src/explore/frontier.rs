@@ -12,6 +12,7 @@ use tautline_kernel::position::Odometry;
 use self::hunt::{KernelHunt, RivalHunt};
 pub use self::team::{ALONE, COVERS, ENDS, KNOWS, MARKS};
 use self::team::{Who, team};
+use super::script::by_robots;
 use super::switches::searched;
 use super::{By, Clause, Look, Profile, RandomPart, Rule, RuleId, Setup, Starts, Team};
 use crate::frontier::{Allowance, AssignedTeam, Assignment, Explorers};
@@ -88,26 +89,15 @@ pub static FRONTIER: Profile = Profile {
         Clause::new(KNOWS.as_str()),
         Clause::new(MARKS.as_str()),
     ],
-    case: |setup, clause, _| scripted::case(setup, clause, unrepaired(setup.rule)?),
+    case: |setup, clause, _| super::team(setup).ok()?.case(setup, clause),
     ..Profile::named("frontier")
 };
-
-/// The rule of the kernel of which there is a judge.
-fn unrepaired(rule: RuleId) -> Option<Frontier> {
-    match rule {
-        RuleId::PUBLISHED => Some(Frontier::PUBLISHED),
-        WANDERS => Some(Frontier::WANDERS),
-        LITERAL => Some(Frontier::LITERAL),
-        PRINTED => Some(Frontier::PRINTED),
-        _ => None,
-    }
-}
 
 /// The team of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     setup.refuse_walls("frontier cells", "cells:6x7:0.1")?;
     if !setup.choices.is_empty() {
-        return scripted::start(setup, rule);
+        return by_robots(setup, rule, [scripted::start::<1>, scripted::start::<2>, scripted::start::<3>]);
     }
     allowed(setup, &rule)?;
     let (starts, options) = (setup.starts(), setup.options.clone());

@@ -16,6 +16,7 @@ pub use self::team::{
     AHEAD, ANY_SHORTEST, APART, CONNECTED, CONTACT, COVERS, ENDS, EQUAL, MARKS, MOVES, SHORTENS, WHOLE,
 };
 use self::team::{KitTeam, reach};
+use super::script::by_robots;
 use super::switches::searched;
 use super::{By, Clause, Look, Profile, RandomPart, RuleId, Setup, Starts, Team};
 use crate::kit::{MOST_ROBOTS, Pace, course, paths};
@@ -52,7 +53,7 @@ pub static KIT: Profile = Profile {
         Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
         Clause::new(ANY_SHORTEST.as_str()),
     ],
-    case: |setup, clause, _| scripted::case(setup, clause),
+    case: |setup, clause, _| super::team(setup).ok()?.case(setup, clause),
     ..Profile::named("kit")
 };
 
@@ -64,7 +65,7 @@ fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
     }
     let rule = Kit { reach: reach(setup.options.range_cells)?, ..rule };
     if !setup.choices.is_empty() {
-        return scripted::start(setup, rule);
+        return by_robots(setup, rule, [scripted::start::<1>, scripted::start::<2>, scripted::start::<3>]);
     }
     let cells = setup.starts();
     let course = course(rule, &setup.layout, &cells, pace(setup), setup.seed);

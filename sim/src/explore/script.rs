@@ -1,9 +1,26 @@
 //! A run that a search has found: the search's world makes it again by its choices.
 
-use std::mem;
+use std::{iter, mem};
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::engine::states::{Bits, System, steps};
 use tautline_proofs::engine::world::World;
+
+use super::setup::of_choices;
+use super::switches::StartBy;
+use super::{Setup, Team};
+
+/// The team of `setup`, which has choices: `starts` begin one of one robot, of two, and of three.
+pub(super) fn by_robots<R>(
+    setup: &Setup,
+    rule: R,
+    starts: [StartBy<R>; 3],
+) -> Result<Box<dyn Team>, Diagnostic> {
+    match (1..).zip(starts).find(|&(robots, _)| robots == setup.robots) {
+        Some((_, start)) => start(setup, rule),
+        None => Err(of_choices(format_args!("{} robots make no choices", setup.robots))),
+    }
+}
 
 /// A world of a search, and the choices by which it makes a run again.
 pub(super) struct Script<S: System> {
@@ -35,6 +52,14 @@ impl<S: System> Script<S> {
         self.past.push((mem::replace(&mut self.state, step.state), step.acting));
         self.broken.extend(step.breaks);
         Some(turned)
+    }
+
+    /// Makes all choices that are left.
+    pub(super) fn rest<T>(&mut self) -> Vec<T>
+    where
+        S: World<Plan = Vec<T>, Event = usize>,
+    {
+        iter::from_fn(|| self.choose(|_| true)).collect()
     }
 
     /// Whether nothing can happen any more.

@@ -4,11 +4,13 @@ use std::fmt;
 
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge};
+use tautline_proofs::judge::Case;
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
 use super::floor::Component;
 use super::scene::{Layer, Refusal, Scene};
+use super::scheme::Setup;
 use super::survey::Survey;
 use crate::failures::Failures;
 use crate::objects::ObjectReport;
@@ -69,6 +71,12 @@ pub trait Team {
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         let _ = (layout, chart, end);
         Vec::new()
+    }
+
+    /// The whole run of `setup` from here on, written down for a judge as one that breaks `clause`; `None` unless it is
+    /// made by the choices of a search and a judge reads it.
+    fn case(&mut self, _setup: &Setup, _clause: ClauseId) -> Option<Box<dyn Case>> {
+        None
     }
 
     /// The marks of cells that the last team move has changed, in order.

@@ -20,39 +20,6 @@ use crate::explore::{ClauseId, End, Setup, Surroundings, Survey, Team};
 use crate::frontier::Moves;
 use tautline_grids::layout::Layout;
 
-/// The team of `setup`, which has choices.
-pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
-    match setup.robots {
-        1 => begin::<1>(setup, rule),
-        2 => begin::<2>(setup, rule),
-        3 => begin::<3>(setup, rule),
-        robots => Err(of_choices(format_args!("{robots} robots make no choices"))),
-    }
-}
-
-/// The run of `setup`, which has choices and is said to break `clause`, written down for the judge of FRONTIER.
-pub(super) fn case(setup: &Setup, clause: ClauseId, rule: Frontier) -> Option<Box<dyn Case>> {
-    match setup.robots {
-        1 => written_down::<1>(setup, clause, rule),
-        2 => written_down::<2>(setup, clause, rule),
-        3 => written_down::<3>(setup, clause, rule),
-        _ => None,
-    }
-}
-
-fn written_down<const ROBOTS: usize>(
-    setup: &Setup,
-    clause: ClauseId,
-    rule: Frontier,
-) -> Option<Box<dyn Case>> {
-    let mut script = script::<ROBOTS>(setup, rule).ok()?;
-    let events: Vec<Event> = std::iter::from_fn(|| Some(script.choose(|_| true)?.event)).collect();
-    let round = if clause == ENDS { script.round()?.len() } else { 0 };
-    let barred = setup.layout.cells().filter(|&cell| !setup.layout.is_free(cell)).collect();
-    let floor = (rule, script.system.area, barred);
-    Some(areas::case(clause.as_str(), floor, &setup.starts(), &events, round)?)
-}
-
 /// The world of `setup`, and its choices.
 fn script<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Script<Setting<ROBOTS>>, Diagnostic> {
     let layout = &setup.layout;
@@ -74,7 +41,8 @@ fn script<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Script<S
     Ok(Script::new(setting, world, choices))
 }
 
-fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
+/// The team of `setup`, which has choices and so many robots.
+pub(super) fn start<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     let (starts, script) = (setup.starts(), script::<ROBOTS>(setup, rule)?);
     let due = setup.layout.reachable(&starts);
     Ok(Box::new(ScriptedTeam { script, cells: starts, due }))
@@ -131,6 +99,14 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
         let broken = Demand::ALL.into_iter().filter(|demand| self.script.broken.contains(demand));
         broken.map(|demand| ClauseId::new(demand.clause())).collect()
+    }
+
+    fn case(&mut self, setup: &Setup, clause: ClauseId) -> Option<Box<dyn Case>> {
+        let events: Vec<Event> = self.script.rest().into_iter().map(|turned| turned.event).collect();
+        let round = if clause == ENDS { self.script.round()?.len() } else { 0 };
+        let Setting { rule, area, .. } = self.script.system;
+        let barred = setup.layout.cells().filter(|&cell| !setup.layout.is_free(cell)).collect();
+        Some(areas::case(clause.as_str(), (rule, area, barred), &setup.starts(), &events, round)?)
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {

@@ -13,48 +13,13 @@ use tautline_proofs::kit::counterexample::{self, ANY_SPEEDS, EQUAL_SPEEDS};
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
 
-use super::team::{AHEAD, COVERS, ENDS, MOVES, WHOLE, clause_of, missed, nodes, reach};
+use super::team::{COVERS, ENDS, MOVES, WHOLE, clause_of, missed, nodes};
 use crate::explore::script::Script;
 use crate::explore::setup::of_choices;
-use crate::explore::{ClauseId, End, RuleId, Setup, Surroundings, Survey, Team};
+use crate::explore::{ClauseId, End, Setup, Surroundings, Survey, Team};
 use crate::frontier::Moves;
 use crate::kit::paths;
 use tautline_grids::layout::Layout;
-
-/// The team of `setup`, which has choices.
-pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
-    match setup.robots {
-        1 => begin::<1>(setup, rule),
-        2 => begin::<2>(setup, rule),
-        3 => begin::<3>(setup, rule),
-        robots => Err(of_choices(format_args!("{robots} robots make no choices"))),
-    }
-}
-
-/// The run of `setup`, which has choices and is said to break `clause`, written down for the judge of KIT.
-pub(super) fn case(setup: &Setup, clause: ClauseId) -> Option<Box<dyn Case>> {
-    let rule = match setup.rule {
-        AHEAD => Kit::AHEAD,
-        RuleId::PUBLISHED => Kit::PUBLISHED,
-        RuleId::REPAIRED => Kit::REPAIRED,
-        _ => return None,
-    };
-    let rule = Kit { reach: reach(setup.options.range_cells).ok()?, ..rule };
-    match setup.robots {
-        2 => written_down::<2>(setup, rule, clause),
-        3 => written_down::<3>(setup, rule, clause),
-        _ => None,
-    }
-}
-
-fn written_down<const ROBOTS: usize>(setup: &Setup, rule: Kit, clause: ClauseId) -> Option<Box<dyn Case>> {
-    let mut script = script::<ROBOTS>(setup, rule).ok()?;
-    let (setting, start) = (script.system, script.state);
-    let steps: Vec<Successor<ROBOTS>> = std::iter::from_fn(|| script.choose(|_| true)).collect();
-    let round = if clause == ENDS { script.round()?.len() } else { 0 };
-    let walls: Vec<Edge> = setup.layout.walls().collect();
-    Some(counterexample::case(clause.as_str(), (&setting, &walls), &start, steps, round)?)
-}
 
 /// The world of `setup`, and its choices.
 fn script<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Script<Setting<ROBOTS>>, Diagnostic> {
@@ -80,7 +45,8 @@ fn script<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Script<Settin
     Ok(Script::new(setting, world, choices))
 }
 
-fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
+/// The team of `setup`, which has choices and so many robots.
+pub(super) fn start<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
     let due = paths(&setup.layout, setup.base);
     Ok(Box::new(ScriptedTeam { script: script::<ROBOTS>(setup, rule)?, cells: setup.starts(), due }))
 }
@@ -130,6 +96,14 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         let speeds = self.script.system.speeds;
         let broken = self.script.broken.iter().map(|&demand| clause_of(demand, speeds, ROBOTS));
         broken.collect::<BTreeSet<ClauseId>>().into_iter().collect()
+    }
+
+    fn case(&mut self, setup: &Setup, clause: ClauseId) -> Option<Box<dyn Case>> {
+        let start = self.script.state;
+        let steps: Vec<Successor<ROBOTS>> = self.script.rest();
+        let round = if clause == ENDS { self.script.round()?.len() } else { 0 };
+        let walls: Vec<Edge> = setup.layout.walls().collect();
+        Some(counterexample::case(clause.as_str(), (&self.script.system, &walls), &start, steps, round)?)
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
