@@ -202,9 +202,8 @@ pub trait Play {
         }
     }
 
-    /// How the team move `made` breaks `clause`, one line for each pair or cell.
-    fn lines(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
-        let _ = (clause, chart, made);
+    /// How a team move breaks a clause, one line for each pair or cell.
+    fn lines(&self, _clause: ClauseId, _chart: &Survey, _made: &TeamMove<'_>) -> Vec<String> {
         Vec::new()
     }
 
@@ -218,9 +217,8 @@ pub trait Play {
         0
     }
 
-    /// The noun for the cells that the end of the run must not miss by `clause`, and those that it misses.
-    fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
-        let _ = (clause, chart);
+    /// The noun for the cells that the end of the run must not miss by a clause, and those that it misses.
+    fn missed(&self, _clause: ClauseId, _chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
         None
     }
 }

@@ -38,16 +38,14 @@ pub trait Team {
         self.area(layout).cells().filter(|&cell| layout.is_free(cell)).count() as u32
     }
 
-    /// How far the team comes in `layout`, if one with more robots came farther.
-    fn reach(&self, layout: &Layout) -> Option<Reach> {
-        let _ = layout;
+    /// How far the team comes in a layout, if one with more robots came farther.
+    fn reach(&self, _layout: &Layout) -> Option<Reach> {
         None
     }
 
-    /// The cells of `layout` that the team must have explored, or marked as visited, before it ends, and has not, as
-    /// `chart` shows. It must explore none, unless it says otherwise.
-    fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
-        let _ = (layout, chart);
+    /// The cells of a layout that the team must have explored, or marked as visited, before it ends, and has not, as
+    /// the chart shows. It must explore none, unless it says otherwise.
+    fn missed(&self, _layout: &Layout, _chart: &Survey) -> Vec<Cell> {
         Vec::new()
     }
 
@@ -61,15 +59,13 @@ pub trait Team {
         false
     }
 
-    /// The clauses that the last team move broke; `before` is where the robots were.
-    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
-        let _ = (before, frame);
+    /// The clauses that the last team move broke; the cells are those where the robots were before it.
+    fn broken_in_move(&self, _before: &[Cell], _frame: &Frame) -> Vec<ClauseId> {
         Vec::new()
     }
 
-    /// The clauses that the end of the run breaks, in which the team has explored what is in `chart`.
-    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
-        let _ = (layout, chart, end);
+    /// The clauses that the end of the run breaks, in which the team has explored what is in the chart.
+    fn broken_at_end(&self, _layout: &Layout, _chart: &Survey, _end: End) -> Vec<ClauseId> {
         Vec::new()
     }
 
@@ -125,11 +121,9 @@ pub trait Team {
         Vec::new()
     }
 
-    /// Tells `scene` what the last team move has changed in [`layers`](Self::layers), whose robots were in the cells
-    /// `before`.
-    fn show(&self, before: &[Cell], scene: &mut Scene) {
-        let _ = (before, scene);
-    }
+    /// Tells a scene what the last team move has changed in [`layers`](Self::layers); the cells are those where the
+    /// robots were before it.
+    fn show(&self, _before: &[Cell], _scene: &mut Scene) {}
 }
 
 /// The answers to a team's questions. A function that knows which edges are open answers everything else as usual.
