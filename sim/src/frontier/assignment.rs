@@ -7,6 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
+use pathfinding::directed::bfs::bfs;
 use pathfinding::kuhn_munkres::kuhn_munkres_min;
 use pathfinding::matrix::Matrix;
 use tautline_kernel::frontier::{Map, Status};
@@ -153,20 +154,11 @@ impl AssignedTeam {
 
     /// The first side of a shortest way to `aim`.
     fn towards(&self, from: Cell, aim: Cell) -> Option<Side> {
-        let (mut distances, mut queue) = (Ways::from([(aim, 0)]), VecDeque::from([aim]));
-        while let Some(cell) = queue.pop_front() {
-            let distance = distances.get(&cell).copied().unwrap_or(0) + 1;
-            for (side, beside) in BY_NUMBER.map(|side| (side, cell.beyond(side))) {
-                if beside == from {
-                    return Some(side.opposite());
-                }
-                if self.chart.status(beside) == Status::Explored && !distances.contains_key(&beside) {
-                    distances.insert(beside, distance);
-                    queue.push_back(beside);
-                }
-            }
-        }
-        None
+        let is_on_way = |cell: &Cell| *cell == from || self.chart.status(*cell) == Status::Explored;
+        let beside = |cell: &Cell| BY_NUMBER.map(|side| cell.beyond(side)).into_iter().filter(is_on_way);
+        let way_back = bfs(&aim, beside, |&cell| cell == from)?;
+        let next = way_back.iter().rev().nth(1);
+        Side::ALL.into_iter().find(|&side| next == Some(&from.beyond(side)))
     }
 
     /// The frontier cell of each robot.
