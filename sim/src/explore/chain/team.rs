@@ -271,6 +271,24 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
         }
     }
 
+    /// The two parts are a chain again, with a log that begins anew.
+    fn form(&mut self, reforming: Reformation<G, ROBOTS>) {
+        if let Ok((chain, parts)) = reforming.formed() {
+            if let Some((told, _)) = &mut self.before {
+                *told = Some(parts);
+            }
+            self.log.clear();
+            self.whole = Some(Whole::Chain(Box::new(chain)));
+        }
+    }
+
+    fn grid(&self) -> Option<&G> {
+        match self.whole.as_ref()? {
+            Whole::Chain(chain) => Some(chain.grid()),
+            Whole::Parts(reforming, _) => Some(reforming.grid()),
+        }
+    }
+
     /// Whether neighbours are in contact all the time while robots go from `before` to `after` one after the other, in
     /// a random order.
     fn holds_one_by_one(&self, before: &[Cell], after: &[Cell]) -> bool {
@@ -295,21 +313,17 @@ fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
     Breach::Contact.is_in(&here, &here)
 }
 
-/// How far a chain of so many robots comes from `base`, unless it comes everywhere.
-fn reach(layout: &Layout, base: Cell, robots: usize) -> Option<Reach> {
-    let area = layout.size().area();
-    let (reached, counts) = reach_by_robots(area, base, usize::MAX, |edge| layout.is_open(edge));
-    let (&cells, connected) = (counts.get(robots.checked_sub(1)?)?, reached.len());
-    (cells < connected).then_some(Reach { cells, connected, robots: counts.len() })
-}
-
 impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
     fn reach(&self, layout: &Layout) -> Option<Reach> {
-        reach(layout, *self.cells.first()?, self.cells.len())
+        let (base, robots) = (*self.cells.first()?, self.cells.len());
+        let is_open = |edge: Edge| layout.is_open(edge);
+        let (reached, counts) = reach_by_robots(layout.size().area(), base, usize::MAX, is_open);
+        let (&cells, connected) = (counts.get(robots - 1)?, reached.len());
+        (cells < connected).then_some(Reach { cells, connected, robots: counts.len() })
     }
 
     fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
@@ -439,26 +453,6 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         if let Some(Whole::Chain(chain)) = &self.whole {
             let before: Vec<Cell> = self.left.iter().map(|&robot| before[robot]).collect();
             layers::show(chain.grid(), &before, self.epochs < chain.epochs(), scene);
-        }
-    }
-}
-
-impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
-    /// The two parts are a chain again, with a log that begins anew.
-    fn form(&mut self, reforming: Reformation<G, ROBOTS>) {
-        if let Ok((chain, parts)) = reforming.formed() {
-            if let Some((told, _)) = &mut self.before {
-                *told = Some(parts);
-            }
-            self.log.clear();
-            self.whole = Some(Whole::Chain(Box::new(chain)));
-        }
-    }
-
-    fn grid(&self) -> Option<&G> {
-        match self.whole.as_ref()? {
-            Whole::Chain(chain) => Some(chain.grid()),
-            Whole::Parts(reforming, _) => Some(reforming.grid()),
         }
     }
 }
