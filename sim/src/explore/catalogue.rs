@@ -1,6 +1,6 @@
 //! The catalogue of schemes: a list of rows that a program puts together, and what is looked up in it by a word.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
 use std::sync::{Mutex, PoisonError};
 
@@ -70,14 +70,9 @@ impl Catalogue {
 }
 
 /// All of these, but of those with the same key only the first.
-fn once<T, K: PartialEq>(all: impl Iterator<Item = T>, key: impl Fn(&T) -> K) -> Vec<T> {
-    let mut kept: Vec<T> = Vec::new();
-    all.for_each(|one| {
-        if kept.iter().all(|known| key(known) != key(&one)) {
-            kept.push(one);
-        }
-    });
-    kept
+fn once<T, K: Ord>(all: impl Iterator<Item = T>, key: impl Fn(&T) -> K) -> Vec<T> {
+    let mut known = BTreeSet::new();
+    all.filter(|one| known.insert(key(one))).collect()
 }
 
 /// The fault of a name that is none of these.

@@ -1,6 +1,6 @@
 //! A rule of one's own ([`tautline_proofs::team`]), as a run plays it: in one layout, with what it breaks.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use tautline_kernel::choice::Oracle;
@@ -33,7 +33,7 @@ pub struct Own<'a, R: Rule> {
     /// The obligations in each of these scenes.
     owed: Vec<Vec<(Promise, Bits)>>,
     /// The demands that are met for good.
-    met: Vec<Promise>,
+    met: BTreeSet<Promise>,
 }
 
 /// A digest that stands for a scene: its hashes behind two different first bytes. Two scenes with the same 128 bits
@@ -123,7 +123,7 @@ impl<'a, R: Rule> Own<'a, R> {
             is_exploring: true,
             been: HashMap::new(),
             owed: Vec::new(),
-            met: playing.met(&scene),
+            met: playing.met(&scene).into_iter().collect(),
             playing,
             scene,
         }
@@ -180,11 +180,7 @@ impl<R: Rule> Team for Own<'_, R> {
             self.been.clear();
             self.owed.clear();
         }
-        for demand in self.playing.met(&self.scene) {
-            if !self.met.contains(&demand) {
-                self.met.push(demand);
-            }
-        }
+        self.met.extend(self.playing.met(&self.scene));
         self.title = self.playing.title(&event);
         self.cells = self.scene.cells().collect();
         Ok(event.frame(&self.scene))
