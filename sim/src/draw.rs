@@ -372,11 +372,6 @@ impl Environment {
         self.row().1
     }
 
-    /// The circle that decides it, if one does.
-    pub const fn circle(self) -> Option<Circle> {
-        self.row().2
-    }
-
     /// The radius of that circle in sides of a cell.
     pub fn radius(self) -> Option<f64> {
         match self {
@@ -395,7 +390,7 @@ impl Environment {
 
     /// Whether `cell` is in it.
     pub fn has(self, centre: Cell, cell: Cell) -> bool {
-        self.circle().map_or_else(|| neighbours(centre, cell), |circle| circle.covers(centre, cell))
+        self.row().2.map_or_else(|| neighbours(centre, cell), |circle| circle.covers(centre, cell))
     }
 }
 

@@ -104,6 +104,10 @@ fn left(report: &Report) -> (&'static str, Vec<Cell>) {
 /// [`Halt`] if the run cannot be made.
 pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
     let report = run.play(&mut |_| Ok(()))?;
+    let end = || {
+        let lines = outcome(run, &report.chart, &report.team).lines().map(str::to_owned).collect();
+        Block { title: "the end".to_owned(), lines }
+    };
     let (mut blocks, mut words) = (Vec::new(), String::new());
     run.play(&mut |made| {
         let before = team_move(run, &report.chart, made, Pose::Before);
@@ -113,11 +117,7 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
             let _ = writeln!(words, "  In team move {} the sensor of {cell} is missed.", made.step);
         }
         if !made.broken.is_empty() {
-            let after = outcome(run, &report.chart, &report.team);
-            blocks.push(Block {
-                title: "the end".to_owned(),
-                lines: after.lines().map(str::to_owned).collect(),
-            });
+            blocks.push(end());
         }
         for line in made.broken.iter().flat_map(|&clause| run.lines(clause, &report.chart, made)) {
             let _ = writeln!(words, "  {line}");
@@ -125,8 +125,7 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
         Ok(())
     })?;
     if report.stopped == StopReason::Endless {
-        let lines = outcome(run, &report.chart, &report.team).lines().map(str::to_owned).collect();
-        blocks.push(Block { title: "the end".to_owned(), lines });
+        blocks.push(end());
         let setup = run.setup();
         let left = report.chart.unexplored(setup.layout.reachable(&setup.starts())).len();
         let again = format!("After team move {} all is as it was before", report.steps);

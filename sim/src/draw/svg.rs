@@ -41,9 +41,7 @@ pub fn check_size(area: Area) -> Result<(), Diagnostic> {
 pub fn layout(layout: &Layout) -> Panel {
     let area = layout.size().area();
     let mut body = ground(layout, area);
-    if let Some(base) = layout.base() {
-        body.push_str(&base_mark(Frame(area), base));
-    }
+    body.extend(layout.base().map(|base| base_mark(Frame(area), base)));
     panel(area, String::new(), body + &walls(layout, area))
 }
 
@@ -143,9 +141,7 @@ pub fn trajectories(layout: &Layout, area: Area, caption: &str, ways: &[Vec<Cell
             points.trim_end()
         );
     }
-    if let Some(base) = layout.base() {
-        body.push_str(&base_mark(frame, base));
-    }
+    body.extend(layout.base().map(|base| base_mark(frame, base)));
     panel(area, caption.to_owned(), body + &walls(layout, area))
 }
 

@@ -36,14 +36,9 @@ impl Frame {
 /// The lines between cells.
 pub(super) fn lines(area: Area) -> String {
     let (columns, rows) = (area.width() as i32, area.height() as i32);
-    let mut path = String::new();
-    for column in 0..=columns {
-        let _ = write!(path, "M{} 0v{}", CELL * column, CELL * rows);
-    }
-    for row in 0..=rows {
-        let _ = write!(path, "M0 {}h{}", CELL * row, CELL * columns);
-    }
-    format!("<path class=\"lines\" d=\"{path}\"/>")
+    let down = (0..=columns).map(|column| format!("M{} 0v{}", CELL * column, CELL * rows));
+    let across = (0..=rows).map(|row| format!("M0 {}h{}", CELL * row, CELL * columns));
+    format!("<path class=\"lines\" d=\"{}\"/>", down.chain(across).collect::<String>())
 }
 
 /// The lines between cells, and the blocked cells.
@@ -191,12 +186,8 @@ fn tree(frame: Frame, is_linked: fn(Cell, Cell) -> bool, team: &[Cell]) -> Strin
 /// The arrow of a robot that crosses `side`, or the bump of one that could not.
 pub(super) fn way(frame: Frame, from: Cell, side: Side, is_blocked: bool) -> String {
     let (x, y) = frame.centre(from);
-    let (dx, dy) = match side {
-        Side::East => (1, 0),
-        Side::South => (0, 1),
-        Side::West => (-1, 0),
-        Side::North => (0, -1),
-    };
+    let beside = Cell::new(0, 0).beyond(side);
+    let (dx, dy) = (i32::from(beside.x), i32::from(beside.y));
     let half = CELL / 2;
     let (edge_x, edge_y) = (x + half * dx, y + half * dy);
     if is_blocked {
