@@ -33,26 +33,27 @@ pub const REEL: RuleId = RuleId::new("reel");
 /// The reel without *Hold*.
 pub const UNHELD: RuleId = RuleId::new("unheld");
 
+/// The row of a chain that is hunted, and whose conditions can be switched.
+macro_rules! searched {
+    ($name:expr, $about:expr, $chain:expr) => {
+        Rule::new($name, $about, |setup| start(setup, $chain.rule))
+            .hunted(&Walls($chain))
+            .switched(&switched($chain.rule))
+    };
+}
+
 /// A base, a leader that seeks the frontier, and followers that keep radio contact.
 pub static CHAIN: Profile = Profile {
     about: "A base, a leader that seeks the frontier, and followers that keep radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), &Walls(Subject::PUBLISHED))
-            .switched(&switched(chain::Rule::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), &Walls(Subject::REPAIRED))
-            .switched(&switched(chain::Rule::REPAIRED)),
-        Rule::new(
+        searched!(RuleId::PUBLISHED, "As the paper publishes it", Subject::PUBLISHED),
+        searched!(RuleId::REPAIRED, "With the repairs of its refuted claims", Subject::REPAIRED),
+        searched!(
             REEL,
             "Within the repaired conditions, the shortest rehearsed way to an unexplored cell",
-            |setup| start(setup, chain::Rule::REEL),
-        )
-        .hunted(&Walls(Subject::REEL))
-        .switched(&switched(chain::Rule::REEL)),
-        Rule::new(UNHELD, "The reel without the condition that holds contact whoever fails", |setup| {
-            start(setup, Subject::UNHELD.rule)
-        })
-        .hunted(&Walls(Subject::UNHELD))
-        .switched(&switched(Subject::UNHELD.rule)),
+            Subject::REEL
+        ),
+        searched!(UNHELD, "The reel without the condition that holds contact whoever fails", Subject::UNHELD),
     ],
     team: "chain",
     robots: 2..=MAX_ROBOTS,

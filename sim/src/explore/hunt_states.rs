@@ -25,10 +25,8 @@ const DEFAULT_MISSES: u8 = 1;
 /// The rule of a crew: how it starts, and how it is hunted.
 macro_rules! crew {
     ($rule:expr, $crew:expr) => {
-        $rule(
-            |setup| Ok($crate::explore::agents::start(setup, $crew)),
-            &$crate::explore::hunt_states::Traps($crew),
-        )
+        $rule(|setup| Ok($crate::explore::agents::start(setup, $crew)))
+            .hunted(&$crate::explore::hunt_states::Traps($crew))
     };
     ($name:expr, $about:expr, $crew:expr) => {
         Rule::new($name, $about, |setup| Ok($crate::explore::agents::start(setup, $crew)))

@@ -17,8 +17,8 @@ use tautline_proofs::run::Frame;
 use super::clause::broken;
 use super::switches::SwitchableRule;
 use super::{
-    Clause, ClauseId, End, Layer, Look, Profile, Rule, RuleId, Scene, Setup, Starts, Surroundings, Survey,
-    Team, has_double, unlinked,
+    Clause, ClauseId, End, Layer, Look, Profile, Rule, Scene, Setup, Starts, Surroundings, Survey, Team,
+    has_double, unlinked,
 };
 use crate::options::Extra;
 use tautline_grids::layout::Layout;
@@ -45,12 +45,8 @@ const PATIENCE: usize = 100;
 pub static PACK: Profile = Profile {
     about: "Robots that see, go where most is to be seen for the way, and stay connected without a base",
     rules: &[
-        Rule::new(RuleId::PUBLISHED, "As the paper publishes it", |setup| start(setup, Pack::PUBLISHED))
-            .switched(&switched(Pack::PUBLISHED)),
-        Rule::new(RuleId::REPAIRED, "With the repairs of its refuted claims", |setup| {
-            start(setup, Pack::REPAIRED)
-        })
-        .switched(&switched(Pack::REPAIRED)),
+        Rule::published(|setup| start(setup, Pack::PUBLISHED)).switched(&switched(Pack::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, Pack::REPAIRED)).switched(&switched(Pack::REPAIRED)),
     ],
     team: "pack",
     robots: 1..=MAX_ROBOTS,

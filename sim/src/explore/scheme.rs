@@ -127,13 +127,13 @@ impl Rule {
     }
 
     /// As the paper publishes it.
-    pub const fn published(start: Start, hunt: &'static dyn Hunt) -> Self {
-        Self::new(RuleId::PUBLISHED, "As the paper publishes it", start).hunted(hunt)
+    pub const fn published(start: Start) -> Self {
+        Self::new(RuleId::PUBLISHED, "As the paper publishes it", start)
     }
 
     /// With the repairs of its refuted claims.
-    pub const fn repaired(start: Start, hunt: &'static dyn Hunt) -> Self {
-        Self::new(RuleId::REPAIRED, "With the repairs of its refuted claims", start).hunted(hunt)
+    pub const fn repaired(start: Start) -> Self {
+        Self::new(RuleId::REPAIRED, "With the repairs of its refuted claims", start)
     }
 }
 

@@ -27,6 +27,7 @@ pub(super) use searched;
 pub(super) type StartBy<R> = fn(&Setup, R) -> Result<Box<dyn Team>, Diagnostic>;
 
 /// A rule of the kernel whose conditions can be switched: how its team starts, and how it is hunted.
+#[derive(Debug)]
 pub(super) struct SwitchableRule<R: 'static> {
     /// The rule.
     pub(super) rule: R,
@@ -52,11 +53,5 @@ impl<R: Conditional + fmt::Debug + Sync> Switches for SwitchableRule<R> {
 
     fn hunt(&self, in_force: u16) -> Option<Box<dyn Hunt>> {
         (self.hunt)(self.rule.with_in_force(in_force), self.rule)
-    }
-}
-
-impl<R: fmt::Debug> fmt::Debug for SwitchableRule<R> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.rule.fmt(f)
     }
 }
