@@ -59,7 +59,7 @@ impl<S: Scheme> Crew for S {
             let (mut team, mut work) = (start.clone(), Work::default());
             while work.team_moves < MOST && !team.is_over() {
                 work.team_moves += 1;
-                work.agent_steps += team.active();
+                work.agent_steps += u32::from(team.whole().active);
                 team.advance();
             }
             work

@@ -155,7 +155,8 @@ fn ended(scheme: impl Scheme, layout: &Layout, start: Cell, agents: usize) -> (u
     while !team.is_over() {
         team.advance();
     }
-    (team.due(), team.visited(), team.active())
+    let whole = team.whole();
+    (whole.cells, whole.visited, whole.active.into())
 }
 
 /// A free cell of the largest part of `layout`, and how many cells the part has.

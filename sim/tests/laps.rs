@@ -26,7 +26,8 @@ fn run(rule: Rule, layout: &str, robots: usize, chance: Probability) -> String {
         }
     }
     if chance.is_never() && agents.is_over() {
-        assert_eq!((agents.visited(), agents.active()), (agents.due(), 0), "{rule:?}");
+        let whole = agents.whole();
+        assert_eq!((whole.visited, whole.active), (whole.cells, 0), "{rule:?}");
     }
     format!("{moves:>5} {:08x}", done.finalize())
 }

@@ -6,7 +6,7 @@
 //! probability is 0 nothing is drawn. A counterexample has the sensors that are missed written down: by their numbers
 //! among all that are asked about.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
@@ -17,7 +17,7 @@ use tautline_proofs::run::Frame;
 
 use super::clause::broken;
 use super::floor::{self, Component, SensorFloor, is_visited};
-use super::scan_time;
+use super::scan_time::{TRAVEL_MILLISECONDS, scan_milliseconds};
 use super::{
     By, ClauseId, Completeness, End, Layer, Look, Profile, RandomPart, Scene, Senses, Setup, Surroundings,
     Survey, Team,
@@ -88,10 +88,8 @@ impl Oracle for Misses {
 
 /// How long an agent scans and goes in a team move, by the paper's means.
 fn milliseconds(scan: &Scan, step: Step) -> u64 {
-    u64::from(match step {
-        Step::Cross(_) => scan_time::step_milliseconds(scan.detected),
-        Step::Stay => scan_time::scan_milliseconds(scan.detected),
-    })
+    let way = if step == Step::Stay { 0 } else { TRAVEL_MILLISECONDS };
+    u64::from(scan_milliseconds(scan.detected) + way)
 }
 
 /// A team of agents on a floor.
@@ -141,9 +139,9 @@ impl<S: Scheme> Agents<S> {
         &self.steps
     }
 
-    /// How many agents are not done. Ants are never done.
-    pub fn active(&self) -> u32 {
-        self.sum(|component| component.active.into())
+    /// The cells that agents can get to, and what has become of them. Ants are never done.
+    pub fn whole(&self) -> Component {
+        Component::whole(&self.floor.components)
     }
 
     /// Whether in the last team move an agent was done although another cell was unexplored or left to go through.
@@ -239,30 +237,12 @@ impl<S: Scheme> Agents<S> {
         self.milliseconds.iter().copied().max().unwrap_or(0)
     }
 
-    /// Cells that agents can get to.
-    pub fn due(&self) -> u32 {
-        self.sum(|component| component.cells)
-    }
-
-    /// Those of them that are explored.
-    pub fn explored(&self) -> u32 {
-        self.sum(|component| component.explored)
-    }
-
-    /// Those of them that are visited.
-    pub fn visited(&self) -> u32 {
-        self.sum(|component| component.visited)
-    }
-
-    fn sum(&self, number: impl Fn(&Component) -> u32) -> u32 {
-        self.floor.components.iter().map(number).sum()
-    }
-
     /// Whether the run is over: every agent is done or, where some may never know that they are, everything is
     /// explored.
     pub fn is_over(&self) -> bool {
         let may_roam = || self.scheme.may_roam(self.misses.sight_by_chance());
-        self.active() == 0 || self.explored() == self.due() && may_roam()
+        let whole = self.whole();
+        whole.active == 0 || whole.explored == whole.cells && may_roam()
     }
 }
 
@@ -296,7 +276,8 @@ impl<S: Scheme> Team for Patrol<S> {
 
     fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
         if self.team.is_over() {
-            let is_explored = self.team.explored() == self.team.due();
+            let whole = self.team.whole();
+            let is_explored = whole.explored == whole.cells;
             return Err(if is_explored { End::Explored } else { End::Exhausted });
         }
         if self.watch.as_mut().is_some_and(|watch| watch.has_come_round(&self.team)) {
@@ -311,7 +292,7 @@ impl<S: Scheme> Team for Patrol<S> {
     }
 
     fn due(&self, _: &Layout) -> u32 {
-        self.team.due()
+        self.team.whole().cells
     }
 
     fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
@@ -323,9 +304,10 @@ impl<S: Scheme> Team for Patrol<S> {
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
-        let is_unexplored = end == End::Endless && self.team.explored() < self.team.due();
+        let Component { cells, explored, visited, .. } = self.team.whole();
+        let is_unexplored = end == End::Endless && explored < cells;
         let is_promised = self.team.scheme.promises(self.team.misses.sight());
-        let is_unvisited = is_promised && self.team.visited() < self.team.due();
+        let is_unvisited = is_promised && visited < cells;
         broken([(is_unvisited, UNVISITED), (is_unexplored, UNEXPLORED)])
     }
 
@@ -358,7 +340,7 @@ impl<S: Scheme> Team for Patrol<S> {
 /// between, go round (Brent 1980).
 struct Watch<S: Scheme> {
     bodies: Vec<BodyOf<S>>,
-    claims: Vec<(usize, Claim)>,
+    claims: BTreeMap<usize, Claim>,
     gains: u64,
     /// Team moves since this was noted, and how many there are until the next note.
     moves: u64,

@@ -1,6 +1,7 @@
 //! A sensor floor over a layout: what every sensor stores, the open sides of every cell, and a tally of each part of
 //! the layout in which agents start. Nothing is asked of the layout once the floor stands.
 
+use std::collections::BTreeMap;
 use std::mem;
 
 use tautline_kernel::floor::{Claim, Floor, Mark};
@@ -23,6 +24,19 @@ pub struct Component {
     pub explored: u32,
     /// Those of them that are visited, sealed or not.
     pub visited: u32,
+}
+
+impl Component {
+    /// All of these taken together.
+    pub fn whole(parts: &[Self]) -> Self {
+        parts.iter().fold(Self::default(), |sum, part| Self {
+            robots: sum.robots + part.robots,
+            active: sum.active + part.active,
+            cells: sum.cells + part.cells,
+            explored: sum.explored + part.explored,
+            visited: sum.visited + part.visited,
+        })
+    }
 }
 
 /// Whether `mark` says that agents need not go through the cell again.
@@ -112,8 +126,8 @@ pub(super) struct SensorFloor<D> {
     places: Vec<Place<D>>,
     /// The parts of the layout in which agents start, in the order of the first agent of each.
     pub(super) components: Vec<Component>,
-    /// The claims on cells, by place, in order.
-    pub(super) claims: Vec<(usize, Claim)>,
+    /// The claims on cells, by place.
+    pub(super) claims: BTreeMap<usize, Claim>,
     /// Marks and shut sides that have changed since the start.
     pub(super) gains: u64,
     /// The marks that have changed since changes were last forgotten, in order.
@@ -131,7 +145,7 @@ impl<D: SensorData> SensorFloor<D> {
             size,
             places: vec![Place::default(); rim],
             components: Vec::new(),
-            claims: Vec::new(),
+            claims: BTreeMap::new(),
             gains: 0,
             marked: Vec::new(),
             turned: Vec::new(),
@@ -142,10 +156,8 @@ impl<D: SensorData> SensorFloor<D> {
             floor.places[index].open = sides.fold(Place::<D>::FREE, |open, side| open | 1 << side as u8);
         }
         for &start in starts {
-            let number = match floor.component(start) {
-                Some(number) => number,
-                None => floor.add_component(&layout.reachable(&[start])),
-            };
+            let known = floor.component(start);
+            let number = known.unwrap_or_else(|| floor.add_component(&layout.reachable(&[start])));
             let component = &mut floor.components[number];
             component.robots += 1;
             component.active += 1;
@@ -207,15 +219,10 @@ impl<D: SensorData> SensorFloor<D> {
     }
 
     fn claim(&mut self, index: usize, claim: Option<Claim>) {
-        let at = self.claims.binary_search_by_key(&index, |&(index, _)| index);
-        match (at, claim) {
-            (Ok(at), Some(claim)) => self.claims[at].1 = claim,
-            (Ok(at), None) => {
-                self.claims.remove(at);
-            }
-            (Err(at), Some(claim)) => self.claims.insert(at, (index, claim)),
-            (Err(_), None) => {}
-        }
+        match claim {
+            Some(claim) => self.claims.insert(index, claim),
+            None => self.claims.remove(&index),
+        };
     }
 }
 

@@ -237,13 +237,7 @@ impl Report {
 
     /// All parts of a sensor floor in which agents started, taken together.
     pub fn whole(&self) -> Component {
-        self.components.iter().fold(Component::default(), |sum, part| Component {
-            robots: sum.robots + part.robots,
-            active: sum.active + part.active,
-            cells: sum.cells + part.cells,
-            explored: sum.explored + part.explored,
-            visited: sum.visited + part.visited,
-        })
+        Component::whole(&self.components)
     }
 
     /// The report of the start: where the robots are is explored.

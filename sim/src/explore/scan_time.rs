@@ -11,7 +11,7 @@ const TURN_WITH_SENSOR_MILLISECONDS: u32 = 9_550;
 /// A turn in which none is: 1.81 s.
 const TURN_WITHOUT_SENSOR_MILLISECONDS: u32 = 1_810;
 /// The way to the next cell: 55.42 s.
-const TRAVEL_MILLISECONDS: u32 = 55_420;
+pub(super) const TRAVEL_MILLISECONDS: u32 = 55_420;
 
 /// A scan in which that many sensors are detected, rounded to the nearest millisecond. More than 18 take a turn each,
 /// and there are no others.
@@ -21,14 +21,9 @@ pub(super) const fn scan_milliseconds(sensors: u8) -> u32 {
     sensors * TURN_WITH_SENSOR_MILLISECONDS + (empty_hundredths * TURN_WITHOUT_SENSOR_MILLISECONDS + 50) / 100
 }
 
-/// A scan in which that many sensors are detected, and the way to the next cell.
-pub(super) const fn step_milliseconds(sensors: u8) -> u32 {
-    scan_milliseconds(sensors) + TRAVEL_MILLISECONDS
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{scan_milliseconds, step_milliseconds};
+    use super::{TRAVEL_MILLISECONDS, scan_milliseconds};
 
     #[test]
     fn times_are_those_of_the_paper() {
@@ -36,7 +31,7 @@ mod tests {
         assert_eq!(scan_milliseconds(0), 33_087);
         // Eight: 8 · 9.55 s + 10.28 · 1.81 s = 76.4 s + 18.6068 s.
         assert_eq!(scan_milliseconds(8), 95_007);
-        assert_eq!(step_milliseconds(8), 150_427);
+        assert_eq!(scan_milliseconds(8) + TRAVEL_MILLISECONDS, 150_427);
         // Eighteen leave 0.28 turns: 171.9 s + 0.5068 s. The nineteenth leaves none.
         assert_eq!(scan_milliseconds(18), 172_407);
         assert_eq!(scan_milliseconds(19), 181_450);

@@ -15,6 +15,7 @@ use tautline_sim::explore::agents as explore;
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
+use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{Profile, RuleId};
 
 /// A scheme under one of its rules.
@@ -45,19 +46,21 @@ impl<S: Scheme> Crew for S {
             |team: &explore::Agents<S>, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
         while !team.is_over() && steps < max_steps {
             team_moves += 1;
-            steps += team.active();
+            steps += u32::from(team.whole().active);
             team.advance();
             is_early |= team.is_premature();
-            if exploration.is_none() && team.explored() == team.due() {
+            let whole = team.whole();
+            if exploration.is_none() && whole.explored == whole.cells {
                 exploration = Some(now(&team, team_moves));
             }
         }
+        let Component { cells, explored, visited, active, .. } = team.whole();
         Outcome {
-            cells: team.due(),
-            explored: team.explored(),
-            visited: team.visited(),
+            cells,
+            explored,
+            visited,
             exploration,
-            termination: (team.active() == 0).then(|| now(&team, team_moves)),
+            termination: (active == 0).then(|| now(&team, team_moves)),
             is_ended: !team.is_over(),
             is_early,
         }
