@@ -15,8 +15,8 @@ use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::run::Frame;
 use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{
-    Catalogue, ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, StopReason, TeamMove,
-    explore,
+    Catalogue, ClauseId, Limits, Milestone, OnViolation, Report, RuleId, RuleName, Setup, StopReason,
+    TeamMove, explore,
 };
 use tautline_sim::trace::{Trace, Writer};
 
@@ -119,7 +119,7 @@ proptest! {
     fn the_repaired_chain_breaks_nothing_and_the_published_one_stays_in_range(setup in setups()) {
         let (report, _) = run(&setup);
         let broken: Vec<ClauseId> = report.violations.iter().map(|violation| violation.clause).collect();
-        if setup.rule == RuleName::Repaired {
+        if setup.rule == RuleId::REPAIRED {
             prop_assert_eq!(broken, Vec::<ClauseId>::new());
         } else {
             prop_assert!(!broken.contains(&Breach::Coverage.into()));

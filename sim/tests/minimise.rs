@@ -165,7 +165,11 @@ fn check(found: &Minimal) {
         Ok(())
     });
     let report = report.expect("a run");
-    let stopped = if *clause == Breach::Completeness { StopReason::Exhausted } else { StopReason::Violation };
+    let stopped = if *clause == ClauseId::from(Breach::Completeness) {
+        StopReason::Exhausted
+    } else {
+        StopReason::Violation
+    };
     assert_eq!((report.stopped, report.steps), (stopped, after.steps));
     assert_eq!(judge(&judge_input(setup, clause.as_str(), &frames)), Ok(()), "{setup:?}");
     let case = Case::of(setup);
@@ -231,10 +235,10 @@ fn minimising_is_the_same_every_time_and_leaves_a_minimal_run_as_it_is() {
 fn the_clause_asked_for_stays_broken_whatever_breaks_before() {
     let setup = setup(8, generated("walls:15x15:0.2", 80));
     let first = minimal(&setup, None).expect("it breaks CHAIN-1");
-    assert_eq!(first.clause, Breach::Contact);
+    assert_eq!(first.clause, Breach::Contact.into());
     check(&first);
     let crowded = minimal(&setup, Some(Breach::Crowding)).expect("it breaks CHAIN-2 later");
-    assert_eq!(crowded.clause, Breach::Crowding);
+    assert_eq!(crowded.clause, Breach::Crowding.into());
     assert!(crowded.before.steps > first.before.steps);
     check(&crowded);
 }
@@ -251,7 +255,7 @@ fn a_minimal_run_that_breaks_another_clause_before_replays_to_its_own() {
     file.keep().expect("a file");
     assert_eq!(path.file_name(), Some("chain-2-published-n10.jsonl".as_ref()));
     let broken: Vec<ClauseId> = report.violations.iter().map(|violation| violation.clause).collect();
-    assert_eq!(broken, [Breach::Contact, Breach::Crowding]);
+    assert_eq!(broken, [Breach::Contact, Breach::Crowding].map(ClauseId::from));
     let trace = Trace::open(&path, Catalogue::OWN).expect("a stored run");
     assert_eq!(trace.clause, Some(Breach::Crowding.into()));
     assert_eq!(trace.replay(&mut |_| Ok(())), Ok(report));

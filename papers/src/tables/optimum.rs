@@ -241,9 +241,14 @@ mod tests {
                 .flat_map(|&walls| {
                     let (ground, goals) = area.goals(&area.layout(walls)).map_err(|_| ()).expect("a ground");
                     RuleName::ALL.map(|rule| {
-                        assert_eq!(ground.reachable(&rule.chain()).expect("a small ground"), goals);
-                        let solved =
-                            explore_all(&ground, &rule.chain(), &goals, Guide::Distances, MOST_STATES);
+                        assert_eq!(ground.reachable(&rule.observed().rule).expect("a small ground"), goals);
+                        let solved = explore_all(
+                            &ground,
+                            &rule.observed().rule,
+                            &goals,
+                            Guide::Distances,
+                            MOST_STATES,
+                        );
                         solved.expect("a small ground").moves()
                     })
                 })

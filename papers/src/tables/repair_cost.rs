@@ -242,8 +242,9 @@ impl Sums {
         };
         let (published, repaired) = (run(RuleName::Published)?, run(RuleName::Repaired)?);
         let breaks = |report: &Report| {
-            Breach::CHAIN
-                .map(|breach| u32::from(report.violations.iter().any(|violation| violation.clause == breach)))
+            Breach::CHAIN.map(|breach| {
+                u32::from(report.violations.iter().any(|violation| violation.clause == breach.into()))
+            })
         };
         Ok(Self {
             milestones: MILESTONES.map(|milestone| {

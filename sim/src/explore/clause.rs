@@ -95,12 +95,6 @@ impl From<Breach> for ClauseId {
     }
 }
 
-impl PartialEq<Breach> for ClauseId {
-    fn eq(&self, breach: &Breach) -> bool {
-        self.0 == breach.clause()
-    }
-}
-
 /// The clauses that are broken, in this order.
 pub(super) fn broken<const N: usize>(clauses: [(bool, ClauseId); N]) -> Vec<ClauseId> {
     clauses.into_iter().filter_map(|(is_broken, clause)| is_broken.then_some(clause)).collect()

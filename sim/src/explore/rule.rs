@@ -5,7 +5,6 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_io::named_values::NamedValues;
-use tautline_kernel::chain;
 use tautline_proofs::chain::Subject;
 
 use super::clause::kept;
@@ -37,11 +36,6 @@ impl RuleName {
             Self::Published => Subject::PUBLISHED,
             Self::Repaired => Subject::REPAIRED,
         }
-    }
-
-    /// The chain's rule.
-    pub const fn chain(self) -> chain::Rule {
-        self.observed().rule
     }
 }
 
@@ -80,12 +74,6 @@ impl RuleId {
 impl From<RuleName> for RuleId {
     fn from(rule: RuleName) -> Self {
         Self(rule.word())
-    }
-}
-
-impl PartialEq<RuleName> for RuleId {
-    fn eq(&self, rule: &RuleName) -> bool {
-        self.0 == rule.word()
     }
 }
 
