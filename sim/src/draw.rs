@@ -13,6 +13,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::floor_trace::{Scene, Turn};
+use tautline_proofs::plural::listed;
 
 use crate::explore::{Look, Play, Setup, Survey, TeamMove};
 use tautline_grids::layout::Layout;
@@ -196,9 +197,10 @@ fn title(made: &TeamMove<'_>) -> String {
         None => (String::new(), " "),
         Some(title) => (format!(": {title}"), "; "),
     };
-    let broken: Vec<&str> = made.broken.iter().map(|clause| clause.as_str()).collect();
-    let broken =
-        if broken.is_empty() { String::new() } else { format!("{joined}breaks {}", broken.join(", ")) };
+    let broken = match made.broken {
+        [] => String::new(),
+        broken => format!("{joined}breaks {}", listed(broken)),
+    };
     format!("move {}{kind}{again}{said}{broken}", made.step)
 }
 
@@ -277,13 +279,7 @@ impl Labels<'_> {
 
 /// The arrow of a step; a robot that stays has a dot.
 const fn arrow(step: Step) -> &'static str {
-    match step {
-        Step::Cross(Side::East) => "→",
-        Step::Cross(Side::South) => "↓",
-        Step::Cross(Side::West) => "←",
-        Step::Cross(Side::North) => "↑",
-        Step::Stay => "·",
-    }
+    ["→", "↓", "←", "↑", "·"][step.place()]
 }
 
 /// Digits and letters: the robots that have a character of their own.

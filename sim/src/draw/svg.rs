@@ -129,16 +129,14 @@ pub fn trajectories(layout: &Layout, area: Area, caption: &str, ways: &[Vec<Cell
     let mut body = format!("<style>{SERIES_STYLE}</style>") + &ground(layout, area);
     for (robot, way) in (0_i32..).zip(ways) {
         let file = 2 * robot - ways.len() as i32 + 1;
-        let points = way.iter().map(|&cell| frame.centre(cell)).fold(String::new(), |mut points, (x, y)| {
-            let _ = write!(points, "{},{} ", x + file, y + file);
-            points
-        });
+        let places = way.iter().map(|&cell| frame.centre(cell));
+        let points: Vec<String> = places.map(|(x, y)| format!("{},{}", x + file, y + file)).collect();
         let colour = robot as usize % SERIES;
         let dashes = if robot as usize >= SERIES { "stroke-dasharray:5 3;" } else { "" };
         let _ = write!(
             body,
             "<polyline points=\"{}\" style=\"fill:none;{dashes}stroke-width:1.5;stroke:var(--series-{colour})\"/>",
-            points.trim_end()
+            points.join(" ")
         );
     }
     body.extend(layout.base().map(|base| base_mark(frame, base)));

@@ -9,7 +9,7 @@ use serde_json::value::RawValue;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::chain::areas::AreaSearch;
 use tautline_proofs::engine::tree::Progress;
-use tautline_proofs::plural::counted;
+use tautline_proofs::plural::{counted, listed};
 
 use super::clause::ClauseId;
 
@@ -49,12 +49,9 @@ impl Bound {
     /// Why a hunt that takes others does not take this one.
     pub(super) fn refused_by(self, takes: &[Self]) -> (String, String) {
         let taken = ["robots", "size", "budget"].into_iter().chain(takes.iter().map(|bound| bound.field()));
-        let taken: Vec<String> = taken.map(|field| format!("`{field}`")).collect();
+        let taken = listed(taken.map(|field| format!("`{field}`")));
         let field = self.field();
-        (
-            format!("`{field}` does not bound this hunt"),
-            format!("leave it out; this hunt takes {}", taken.join(", ")),
-        )
+        (format!("`{field}` does not bound this hunt"), format!("leave it out; this hunt takes {taken}"))
     }
 }
 

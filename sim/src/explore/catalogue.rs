@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Serialize, Serializer};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
+use tautline_proofs::plural::listed;
 
 use super::clause::kept;
 use super::{
@@ -57,8 +58,7 @@ impl Catalogue {
         let known = once(self.schemes().flat_map(|scheme| scheme.clauses), |clause| clause.id);
         let found = known.iter().find(|clause| clause.id.as_str() == id).map(|clause| clause.id);
         found.ok_or_else(|| {
-            let known: Vec<&str> = known.iter().map(|clause| clause.id.as_str()).collect();
-            let remedy = format!("the clauses are {}", known.join(", "));
+            let remedy = format!("the clauses are {}", listed(known.iter().map(|clause| clause.id)));
             Diagnostic::usage(format_args!("no run can break the clause {id:?}"), remedy)
         })
     }
@@ -77,8 +77,8 @@ fn once<T, K: Ord>(all: impl Iterator<Item = T>, key: impl Fn(&T) -> K) -> Vec<T
 
 /// The fault of a name that is none of these.
 fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
-    let quoted: Vec<String> = known.map(|known| format!("`{known}`")).collect();
-    format!("unknown variant `{name}`, expected one of {}", quoted.join(", "))
+    let known = listed(known.map(|known| format!("`{known}`")));
+    format!("unknown variant `{name}`, expected one of {known}")
 }
 
 /// The rows of schemes that are in no catalogue, by their names: files name few, and they are kept as long as the

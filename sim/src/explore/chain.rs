@@ -14,7 +14,7 @@ use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::Case;
 use tautline_proofs::judge::chain::judges;
-use tautline_proofs::plural::counted;
+use tautline_proofs::plural::{counted, listed};
 
 use self::bounds::team_fault;
 use self::hunt::Walls;
@@ -137,8 +137,8 @@ fn crowded(team: &[Cell]) -> Vec<String> {
     let too_many = crowded.chunk_by(|one, other| one == other).filter(|cells| cells.len() > 2);
     let told = |cells: &[Cell]| {
         let here = (1..).zip(team).filter(|&(_, &cell)| cell == cells[0]);
-        let robots: Vec<String> = here.map(|(robot, _)| format!("R_{robot}")).collect();
-        format!("So {} are in one cell, {}.", robots.join(", "), cells[0])
+        let robots = listed(here.map(|(robot, _)| format!("R_{robot}")));
+        format!("So {robots} are in one cell, {}.", cells[0])
     };
     too_many.map(told).collect()
 }

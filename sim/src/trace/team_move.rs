@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_grids::layout::{ColumnRow, Layout};
 use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::run::Frame;
 
 use crate::explore::{Look, TeamMove};
@@ -148,13 +148,7 @@ pub(super) fn one_line(words: &str) -> String {
 
 /// The letter of what a robot tries: E, S, W, N, or `.` for one that stays.
 pub const fn letter(step: Step) -> char {
-    match step {
-        Step::Cross(Side::East) => 'E',
-        Step::Cross(Side::South) => 'S',
-        Step::Cross(Side::West) => 'W',
-        Step::Cross(Side::North) => 'N',
-        Step::Stay => '.',
-    }
+    ['E', 'S', 'W', 'N', '.'][step.place()]
 }
 
 /// The step that has this letter.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use tautline_io::diagnostic::Halt;
+use tautline_proofs::plural::listed;
 
 use super::shrink::Extent;
 use crate::explore::{ClauseId, Report, Setup, Violation};
@@ -54,9 +55,8 @@ impl Refusal {
                 "draw it with `tautline replay`",
             ),
             Self::Otherwise { asked, broken } => {
-                let broken: Vec<&str> = broken.iter().map(|clause| clause.as_str()).collect();
                 let what = format!("this run does not break {asked}: there is nothing to minimise");
-                return (what, format!("it breaks {}", broken.join(", ")));
+                return (what, format!("it breaks {}", listed(broken)));
             }
         };
         (what.to_owned(), remedy.to_owned())

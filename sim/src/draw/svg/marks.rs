@@ -170,14 +170,13 @@ fn tree(frame: Frame, is_linked: fn(Cell, Cell) -> bool, team: &[Cell]) -> Strin
     let (mut joined, mut rest) = (team[..1].to_vec(), team[1..].to_vec());
     let mut place = 0;
     while let Some(&from) = joined.get(place) {
-        let (near, far): (Vec<Cell>, Vec<Cell>) = rest.into_iter().partition(|&cell| is_linked(from, cell));
+        let near: Vec<Cell> = rest.extract_if(.., |cell| is_linked(from, *cell)).collect();
         let (x, y) = frame.centre(from);
         for &cell in near.iter().filter(|&&cell| cell != from) {
             let (to_x, to_y) = frame.centre(cell);
             let _ = write!(body, "<path class=\"link\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
         }
         joined.extend(near);
-        rest = far;
         place += 1;
     }
     body
