@@ -42,7 +42,9 @@ impl<R: Rule> OwnRun<'_, R> {
         let is_alone = self.setting.strategy() == Strategy::Tree && self.run.ending != Ending::Endless;
         let report = if is_alone {
             let playing = self.setting.in_layout(self.rule.1, &starts, Vec::new());
-            run(&mut Own::new(playing, 0).not_exploring(), &setup.layout, limits, &mut add)?
+            let mut team = Own::new(playing, 0);
+            team.is_exploring = false;
+            run(&mut team, &setup.layout, limits, &mut add)?
         } else {
             let Run { frames, ending, words, .. } = self.run;
             let last = clause.map(|clause| Violation { clause, step: frames.len() as u32 });

@@ -105,8 +105,7 @@ fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     let objects =
         options.objects.as_ref().map(|objects| objects.places(&setup.layout.reachable(&starts), &mut dice));
     let robots = Explorers::new(rule, &setup.layout, &starts, options, setup.seed);
-    let robots = robots.among(objects.unwrap_or_default()).looked_around();
-    Ok(team(setup, Who::Robots(Box::new(robots))))
+    Ok(team(setup, Who::Robots(Box::new(robots.among(objects.unwrap_or_default())))))
 }
 
 /// The team of `setup` whose cells are assigned.

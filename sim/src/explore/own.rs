@@ -27,7 +27,7 @@ pub struct Own<'a, R: Rule> {
     /// The words for its last step.
     title: String,
     /// Whether its robots are to explore the layout.
-    is_exploring: bool,
+    pub(crate) is_exploring: bool,
     /// The scenes in which it was since the last draw, by 128 bits of each, with the number of each among them.
     been: HashMap<[u64; 2], usize>,
     /// The obligations in each of these scenes.
@@ -127,12 +127,6 @@ impl<'a, R: Rule> Own<'a, R> {
             playing,
             scene,
         }
-    }
-
-    /// This team, of which nobody asks how much of the layout it explores.
-    #[must_use]
-    pub fn not_exploring(self) -> Self {
-        Self { is_exploring: false, ..self }
     }
 
     /// This team, of which a search has found these answers to what no layout knows.
