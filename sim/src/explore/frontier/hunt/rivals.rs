@@ -1,9 +1,10 @@
 //! Hunts of rivals that assign robots to cells: all layouts and starts are tried, smallest first.
 
 use serde::{Deserialize, Serialize};
-use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_kernel::ground::Cell;
+use tautline_io::diagnostic::Diagnostic;
+use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::engine::cases::{self, Cases};
+use tautline_proofs::plural::listed;
 use tautline_proofs::protocol::arrangements;
 
 use super::super::team::ENDS;
@@ -11,7 +12,7 @@ use super::{bounds, report, sized};
 use crate::explore::by_layout::{Each, FoundBy};
 use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, areas};
 use crate::explore::states::{Count, Small};
-use crate::explore::{ClauseId, Limits, RuleId, Scheme, Setup, run, team};
+use crate::explore::{ClauseId, Course, Limits, RuleId, Scheme, Setup, Violation, team};
 use tautline_grids::layout::Layout;
 
 /// Team moves after which a rival is watched no longer.
@@ -138,7 +139,7 @@ impl Cases for Layouts {
             let (steps, broken) = try_one(&setup)?;
             tried.runs += 1;
             tried.steps += u64::from(steps);
-            for (clause, steps) in broken {
+            for Violation { clause, step: steps } in broken {
                 if tried.broken.iter().all(|known| known.clause != clause) {
                     tried.broken.push(BrokenClause { clause, start, steps });
                 }
@@ -197,26 +198,23 @@ impl Layouts {
 fn endless(setup: &Setup) -> String {
     let starts = setup.starts();
     let starts = (1..).zip(&starts).map(|(robot, start)| format!("R{robot} starts in {start}"));
-    format!("A run without end: {}\n\n{}", starts.collect::<Vec<_>>().join(", "), setup.layout)
+    format!("A run without end: {}\n\n{}", listed(starts), setup.layout)
 }
 
-/// Runs a rival once: its team moves, and what it breaks, each with the team move. It goes on after it has broken
-/// something, for the sake of the other clauses.
-fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Diagnostic> {
-    let mut members = team(setup)?;
-    let mut broken = Vec::new();
-    let made = run(&mut *members, &setup.layout, setup.limits, &mut |made| {
-        if made.step > MOST_MOVES {
-            return Err(Halt::Interrupted);
+/// Runs a rival once: its team moves, and what it breaks. It goes on after it has broken something, for the sake of the
+/// other clauses.
+fn try_one(setup: &Setup) -> Result<(u32, Vec<Violation>), Diagnostic> {
+    let (layout, mut members) = (&setup.layout, team(setup)?);
+    let mut course = Course::new(&*members, layout);
+    let mut world = |edge: Edge| layout.is_open(edge);
+    for _ in 0..=MOST_MOVES {
+        if course.step(&mut *members, layout, setup.limits, &mut world).is_none() {
+            return Ok((course.report.steps, course.report.violations));
         }
-        broken.extend(made.broken.iter().map(|&clause| (clause, made.step)));
-        Ok(())
-    });
-    if let Ok(report) = made {
-        let broken = report.violations.iter().map(|violation| (violation.clause, violation.step));
-        return Ok((report.steps, broken.collect()));
     }
-    broken.push((ENDS, MOST_MOVES));
+    let mut broken = course.report.violations;
+    broken.retain(|violation| violation.step <= MOST_MOVES);
+    broken.push(Violation { clause: ENDS, step: MOST_MOVES });
     Ok((MOST_MOVES, broken))
 }
 
