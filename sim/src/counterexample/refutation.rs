@@ -123,15 +123,18 @@ pub fn text(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Resul
         bound: check.bound(),
         demand: evidence.demand.to_owned(),
     });
-    let Choices { once, again } = choices;
-    let lines = once.iter().map(|_| Line::Choice as fn(Choice) -> Line);
-    let lines = lines.chain(again.iter().map(|_| Line::Again as fn(Choice) -> Line));
-    for ((line, &taken), of) in lines.zip(once.iter().chain(again)).zip(of) {
-        text += &line_of(&line(Choice { taken, of }));
-    }
+    text.extend(lines(choices, &of));
+    let (choices, again) = (choices.once.len(), choices.again.len());
     let crc32 = crc32fast::hash(text.as_bytes());
-    text += &line_of(&Line::End(End { choices: once.len(), again: again.len(), crc32 }));
+    text += &line_of(&Line::End(End { choices, again, crc32 }));
     Ok(text)
+}
+
+/// The lines of choices, each made from so many.
+fn lines(choices: &Choices, of: &[u32]) -> impl Iterator<Item = String> {
+    let once = choices.once.iter().map(|&taken| (Line::Choice as fn(Choice) -> Line, taken));
+    let again = choices.again.iter().map(|&taken| (Line::Again as fn(Choice) -> Line, taken));
+    once.chain(again).zip(of).map(|((line, taken), &of)| line_of(&line(Choice { taken, of })))
 }
 
 /// A refutation that was read, and played again.
@@ -245,12 +248,7 @@ fn play<'a>(
     of: &[u32],
 ) -> Result<(&'a Clause, &'a dyn AnyCheck, Evidence), Diagnostic> {
     let at = |at: usize, what: &str| {
-        let all = choices.once.iter().chain(&choices.again);
-        let text = all.zip(of).nth(at).map(|(&taken, &of)| {
-            let choice = Choice { taken, of };
-            line_of(&if at < choices.once.len() { Line::Choice(choice) } else { Line::Again(choice) })
-        });
-        let text = text.unwrap_or_default();
+        let text = lines(choices, of).nth(at).unwrap_or_default();
         let text = text.trim_end();
         Diagnostic::in_line(path, 2 + at, text, 0..text.len(), what, AGAIN)
     };
