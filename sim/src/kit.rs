@@ -6,7 +6,7 @@
 //! with the seed of the run as layouts are, with the tag `kit`. Times are whole milliseconds, and lengths whole
 //! millimetres.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroU32;
 
 use tautline_kernel::choice::Oracle;
@@ -291,10 +291,8 @@ fn widest_gap(positions: &[[i64; 2]]) -> i64 {
 /// The open sides within reach of `start`, by the paths across them.
 pub fn paths(layout: &Layout, start: Cell) -> Vec<Edge> {
     let sides = layout.spread(&[start]).flat_map(|node| Side::ALL.map(|side| Edge::new(node, side)));
-    let mut paths: Vec<Edge> = sides.filter(|&side| layout.is_open(side)).collect();
-    paths.sort_unstable();
-    paths.dedup();
-    paths
+    let paths: BTreeSet<Edge> = sides.filter(|&side| layout.is_open(side)).collect();
+    paths.into_iter().collect()
 }
 
 /// The nodes nearest to `base`, the base first, in which a team of so many can start: each in one of its own, near

@@ -72,10 +72,7 @@ impl<C: Crew> Each for Traps<C> {
     }
 
     fn layouts(&self, asked: &HuntRequest<'_>) -> Result<Bounds<C>, Diagnostic> {
-        let size = match asked.size {
-            Some(size) => size,
-            None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
-        };
+        let size = asked.size.map_or_else(|| Size::new(DEFAULT_SIDE, DEFAULT_SIDE), Ok)?;
         let agents = asked.robots.unwrap_or(DEFAULT_AGENTS);
         let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
         let agents = fitting.ok_or_else(|| {

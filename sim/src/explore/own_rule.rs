@@ -13,7 +13,7 @@ use tautline_proofs::engine::world::World as _;
 use tautline_proofs::engine::{Until, outcomes};
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run};
-use tautline_proofs::team::{Keeps, Places, Rule, Setting, Strategy};
+use tautline_proofs::team::{Keeps, Places, Promise, Rule, Setting, Strategy};
 
 use super::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize,
@@ -50,19 +50,15 @@ impl<R: Rule + PartialEq + 'static> OwnRule<R> {
     }
 
     /// The answers of a counterexample to what no layout knows, in their order.
-    fn choices(&self, demand: usize, evidence: &Evidence) -> Vec<u32> {
+    fn choices(&self, demand: usize, evidence: &Evidence) -> Option<Vec<u32>> {
         // A tree asks about the layout alone.
         if self.setting.strategy() == Strategy::Tree {
-            return Vec::new();
+            return None;
         }
         let (mut all, mut steps) = (Vec::new(), evidence.choices.all());
-        let start = steps
-            .next()
-            .and_then(|number| self.setting.starts(&self.rule).ok()?.into_iter().nth(number as usize));
-        let Ok(world) = self.setting.playing(&self.rule, &[tautline_proofs::team::Promise(demand)]) else {
-            return all;
-        };
-        let Some(mut scene) = start else { return all };
+        let start = steps.next()? as usize;
+        let mut scene = self.setting.starts(&self.rule).ok()?.into_iter().nth(start)?;
+        let world = self.setting.playing(&self.rule, &[Promise(demand)]).ok()?;
         for number in steps {
             let mut planned = scene.clone();
             let Some(plan) = world.plan(&mut planned, &[]) else { break };
@@ -76,7 +72,7 @@ impl<R: Rule + PartialEq + 'static> OwnRule<R> {
             scene = after;
             all.extend(drawn);
         }
-        all
+        Some(all)
     }
 
     fn finding(
@@ -86,7 +82,7 @@ impl<R: Rule + PartialEq + 'static> OwnRule<R> {
         evidence: &Evidence,
         run: &Run,
     ) -> Result<Finding, Diagnostic> {
-        let choices = self.choices(demand, evidence);
+        let choices = self.choices(demand, evidence).unwrap_or_default();
         let setup = Setup { choices, ..found_setup(asked.scheme, asked.rule, run)? };
         let (columns, rows) = (run.area.width(), run.area.height());
         let (walls, steps) = (run.walls.len() + run.obstacles.len(), run.frames.len());

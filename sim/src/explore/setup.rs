@@ -71,10 +71,7 @@ impl Setup {
     /// # Errors
     /// [`Diagnostic`] if it is not a free cell.
     pub fn choose_base(layout: &mut Layout, asked: Option<Cell>) -> Result<Cell, Diagnostic> {
-        let base = match asked.or(layout.base()) {
-            Some(base) => base,
-            None => layout.default_base()?,
-        };
+        let base = asked.or(layout.base()).map_or_else(|| layout.default_base(), Ok)?;
         layout.place_base(base)?;
         Ok(base)
     }
@@ -365,11 +362,11 @@ impl Setup {
 
     /// Refuses starts that the scheme does not have.
     fn check_starts(&self) -> Result<(), Diagnostic> {
-        let Self { scheme, robots, starts, .. } = self;
+        let Self { scheme, robots, .. } = self;
         let robot = scheme.look.robot();
         let wrong = |what: String, remedy: &str| Err(Diagnostic::of_field("starts", what, remedy));
         let is_alone = scheme.starts == Starts::Alone;
-        let is_not_for_each = match (scheme.starts, starts) {
+        let (starts, is_for_each) = match (scheme.starts, self.starts.as_deref()) {
             (Starts::Base, None) => return Ok(()),
             (Starts::Base, Some(_)) => {
                 let what = format!("the {robot}s of a {} start at the base", scheme.team);
@@ -382,13 +379,12 @@ impl Setup {
                 let remedy = format!("give `robots` a number up to {cells}, or take a larger layout");
                 return Err(Diagnostic::of_field("robots", what, remedy));
             }
-            (Starts::Anywhere | Starts::Beside | Starts::Alone, None) => is_alone,
-            (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts)) => {
-                starts.len() != usize::from(*robots)
+            (Starts::Anywhere | Starts::Beside | Starts::Alone, given) => {
+                let is_for_each = given.map_or(!is_alone, |starts| starts.len() == usize::from(*robots));
+                (given.unwrap_or(slice::from_ref(&self.base)), is_for_each)
             }
         };
-        let starts = starts.as_deref().unwrap_or(slice::from_ref(&self.base));
-        if is_not_for_each {
+        if !is_for_each {
             let for_all = if is_alone { "give each" } else { "give one start for all, or one for each" };
             let own = if is_alone { " a start of its own" } else { "" };
             let what = format!("{} for {}", counted(starts.len(), "start"), counted(*robots, robot));

@@ -42,10 +42,8 @@ impl Small {
     /// # Errors
     /// A [`Diagnostic`] if it is too large.
     pub(super) fn size(&self, asked: &HuntRequest<'_>) -> Result<Size, Diagnostic> {
-        let size = match asked.size {
-            Some(size) => size,
-            None => Size::new(Self::DEFAULT_SIZE.0, Self::DEFAULT_SIZE.1)?,
-        };
+        let (width, height) = Self::DEFAULT_SIZE;
+        let size = asked.size.map_or_else(|| Size::new(width, height), Ok)?;
         let (most_cells, &Self { cell, most_side: (most_side, side), examples, .. }) =
             (Self::MOST_CELLS, self);
         if size.cells() <= most_cells && size.width().max(size.height()) <= most_side {
