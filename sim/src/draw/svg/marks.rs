@@ -80,20 +80,15 @@ fn side(frame: Frame, edge: Edge) -> String {
     }
 }
 
-/// The class of cells with a mark, unless they are unexplored.
-pub(super) const fn class(mark: Mark) -> Option<&'static str> {
-    match mark {
-        Mark::Unexplored => None,
-        Mark::Explored => Some("explored"),
-        Mark::Closing => Some("closing"),
-        Mark::Visited => Some("visited"),
-        Mark::Sealed => Some("sealed"),
-    }
-}
-
 /// A cell with its mark; nothing if it is unexplored.
 pub(super) fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
-    let Some(class) = class(mark) else { return String::new() };
+    let class = match mark {
+        Mark::Unexplored => return String::new(),
+        Mark::Explored => "explored",
+        Mark::Closing => "closing",
+        Mark::Visited => "visited",
+        Mark::Sealed => "sealed",
+    };
     let (x, y) = frame.corner(cell);
     let inner = CELL - 1;
     format!("<rect class=\"{class}\" x=\"{x}.5\" y=\"{y}.5\" width=\"{inner}\" height=\"{inner}\"/>")
@@ -153,15 +148,17 @@ pub(super) fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
 }
 
 fn links(frame: Frame, is_lost: fn(&[Cell], &[Cell]) -> bool, before: &[Cell], after: &[Cell]) -> String {
-    let mut body = String::new();
-    for (from, to) in before.windows(2).zip(after.windows(2)) {
+    let apart = before.windows(2).zip(after.windows(2)).filter(|(_, to)| to[0] != to[1]);
+    let link = |(from, to): (&[Cell], &[Cell])| {
         let class = if is_lost(from, to) { "broken" } else { "link" };
-        let ((x, y), (to_x, to_y)) = (frame.centre(to[0]), frame.centre(to[1]));
-        if (x, y) != (to_x, to_y) {
-            let _ = write!(body, "<path class=\"{class}\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
-        }
-    }
-    body
+        line(class, frame.centre(to[0]), frame.centre(to[1]))
+    };
+    apart.map(link).collect()
+}
+
+/// A line of this class from one place to another.
+pub(super) fn line(class: &str, (x, y): (i32, i32), (to_x, to_y): (i32, i32)) -> String {
+    format!("<path class=\"{class}\" d=\"M{x} {y}L{to_x} {to_y}\"/>")
 }
 
 /// A tree of links from the base to all robots that links join to it, by the fewest links.
@@ -171,11 +168,8 @@ fn tree(frame: Frame, is_linked: fn(Cell, Cell) -> bool, team: &[Cell]) -> Strin
     let mut place = 0;
     while let Some(&from) = joined.get(place) {
         let near: Vec<Cell> = rest.extract_if(.., |cell| is_linked(from, *cell)).collect();
-        let (x, y) = frame.centre(from);
-        for &cell in near.iter().filter(|&&cell| cell != from) {
-            let (to_x, to_y) = frame.centre(cell);
-            let _ = write!(body, "<path class=\"link\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
-        }
+        let others = near.iter().filter(|&&cell| cell != from);
+        body.extend(others.map(|&cell| line("link", frame.centre(from), frame.centre(cell))));
         joined.extend(near);
         place += 1;
     }
@@ -191,25 +185,15 @@ pub(super) fn way(frame: Frame, from: Cell, side: Side, is_blocked: bool) -> Str
     let (edge_x, edge_y) = (x + half * dx, y + half * dy);
     if is_blocked {
         let (across_x, across_y) = (half * dy, half * dx);
-        return format!(
-            "<path class=\"way\" d=\"M{x} {y}L{edge_x} {edge_y}\"/><path class=\"bump\" d=\"M{} {}L{} {}\"/>",
-            edge_x - across_x,
-            edge_y - across_y,
-            edge_x + across_x,
-            edge_y + across_y
-        );
+        let ends = [(edge_x - across_x, edge_y - across_y), (edge_x + across_x, edge_y + across_y)];
+        return line("way", (x, y), (edge_x, edge_y)) + &line("bump", ends[0], ends[1]);
     }
     // The tip is where the circle of the robot begins.
     let (tip_x, tip_y) = (edge_x + 3 * dx, edge_y + 3 * dy);
     let (foot_x, foot_y) = (edge_x - 2 * dx, edge_y - 2 * dy);
-    format!(
-        "<path class=\"way\" d=\"M{x} {y}L{foot_x} {foot_y}\"/><path \
-         class=\"tip\" d=\"M{tip_x} {tip_y}L{} {}L{} {}z\"/>",
-        foot_x + 3 * dy,
-        foot_y + 3 * dx,
-        foot_x - 3 * dy,
-        foot_y - 3 * dx
-    )
+    let (left, right) = ((foot_x + 3 * dy, foot_y + 3 * dx), (foot_x - 3 * dy, foot_y - 3 * dx));
+    let path = format!("M{tip_x} {tip_y}L{} {}L{} {}z", left.0, left.1, right.0, right.1);
+    line("way", (x, y), (foot_x, foot_y)) + &format!("<path class=\"tip\" d=\"{path}\"/>")
 }
 
 /// Where robots that share a cell are drawn, from its centre.

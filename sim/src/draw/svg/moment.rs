@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tautline_io::svg::{Panel, escaped};
 use tautline_kernel::ground::Cell;
 
-use super::marks::{CELL, Frame, ground, name, panel, unseen, walls};
+use super::marks::{CELL, Frame, ground, line, name, panel, unseen, walls};
 use tautline_grids::layout::Layout;
 
 /// Robots in cells from the corner of a layout, each with its name; `broken` are those that break a clause, with a line
@@ -23,9 +23,9 @@ pub fn moment(
     let pixel = |along: f64| (along * f64::from(CELL)).round() as i32;
     let place = |robot: usize| robots.get(robot).map(|(place, _)| place.map(pixel));
     if let [one, other] = broken
-        && let (Some([x, y]), Some([to_x, to_y])) = (place(*one), place(*other))
+        && let (Some(one), Some(other)) = (place(*one), place(*other))
     {
-        let _ = write!(body, "<path class=\"broken\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
+        body += &line("broken", one.into(), other.into());
     }
     for (robot, (place, label)) in robots.iter().enumerate() {
         let class = if broken.contains(&robot) { "crowded" } else { "robot" };
