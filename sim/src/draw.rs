@@ -52,8 +52,10 @@ fn grid(
     label: impl Fn(Cell) -> String,
     is_marked: impl Fn(Edge) -> bool,
 ) -> Vec<String> {
-    let is_closed =
-        |edge: Edge| layout.has_wall(edge) || !area.contains(edge.cell()) || !area.contains(beyond(edge));
+    let is_closed = |edge: Edge| {
+        let sides = [edge.cell(), edge.cell().beyond(edge.side())];
+        layout.has_wall(edge) || sides.iter().any(|&cell| !area.contains(cell))
+    };
     let sign = |edge: Edge, wall: char| match (is_marked(edge), is_closed(edge)) {
         (true, _) => 'x',
         (false, true) => wall,
@@ -81,10 +83,6 @@ fn grid(
         lines.push(cells);
     }
     lines
-}
-
-fn beyond(edge: Edge) -> Cell {
-    edge.cell().beyond(edge.side())
 }
 
 /// The moment that a drawing of a team move shows.

@@ -70,16 +70,12 @@ pub enum Compass {
 impl Compass {
     /// All, by their letters and in the order of [`Side::ALL`].
     const ALL: [(&'static str, Self); 4] = [("E", Self::E), ("S", Self::S), ("W", Self::W), ("N", Self::N)];
-
-    const fn side(self) -> Side {
-        Side::ALL[self as usize]
-    }
 }
 
 impl WallAppearance {
     /// Where the wall stands.
     pub const fn edge(&self) -> Edge {
-        Edge::new(self.cell, self.side.side())
+        Edge::new(self.cell, Side::ALL[self.side as usize])
     }
 }
 

@@ -225,7 +225,7 @@ fn read_moves(lines: &mut Lines, header: &ForeignHeader, layout: &Layout) -> Res
         }
         round += usize::from(made.again);
         titles.push(made.title.clone());
-        let told = made.frame(&team, layout, header.first_number());
+        let told = made.frame(&team, layout, header.numbered_from.unwrap_or(1));
         let frame = told.map_err(|(key, what)| lines.fault(&text, key, what, AGAIN))?;
         team.clone_from(&frame.cells);
         frames.push(frame);

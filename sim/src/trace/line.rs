@@ -53,11 +53,6 @@ pub(super) struct Header<L> {
 }
 
 impl<L> Header<L> {
-    /// The number of the first robot.
-    pub(super) fn first_number(&self) -> usize {
-        self.numbered_from.unwrap_or(1)
-    }
-
     /// The run that it makes, without limits.
     pub(super) fn setup(self, scheme: Scheme, rule: RuleId, layout: Layout) -> Setup {
         let Self { robots, seed, base, starts, miss, missed, options, choices, .. } = self;
