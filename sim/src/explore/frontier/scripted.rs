@@ -23,11 +23,12 @@ use tautline_grids::layout::Layout;
 /// The world of `setup`, and its choices.
 fn script<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Script<Setting<ROBOTS>>, Diagnostic> {
     let layout = &setup.layout;
+    let too_large = || of_choices("the layout is too large for choices");
     let setting = areas::setting::<ROBOTS>(rule, (layout.width(), layout.height()));
     let blank = TinyMap::new(layout.size().area());
     let cells = <[Cell; ROBOTS]>::try_from(setup.starts());
     let (Some(setting), Some(mut given), Ok(cells)) = (setting, blank, cells) else {
-        return Err(of_choices("the layout is too large for choices"));
+        return Err(too_large());
     };
     layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));
     let Some((&[max_losses, max_wrong], choices)) = setup.choices.split_first_chunk() else {
@@ -35,9 +36,7 @@ fn script<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Script<S
     };
     let (max_losses, max_wrong) = (max_losses as u8, max_wrong as u8);
     let setting = Setting { given: Some(given), max_losses, max_wrong, ..setting };
-    let Some(world) = setting.start(cells) else {
-        return Err(of_choices("the layout is too large for choices"));
-    };
+    let world = setting.start(cells).ok_or_else(too_large)?;
     Ok(Script::new(setting, world, choices))
 }
 

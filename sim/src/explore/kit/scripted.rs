@@ -39,9 +39,7 @@ fn script<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Script<Settin
         Some(_) | None => return Err(of_choices("the choices do not say how fast robots drive")),
     };
     let setting = Setting { given: Some(given), speeds, ..setting };
-    let Some(world) = setting.start(cells) else {
-        return Err(of_choices("the robots cannot start so"));
-    };
+    let world = setting.start(cells).ok_or_else(|| of_choices("the robots cannot start so"))?;
     Ok(Script::new(setting, world, choices))
 }
 
