@@ -6,6 +6,8 @@ mod detour;
 pub mod drift;
 mod fusion;
 pub mod local;
+#[cfg(test)]
+mod overlapping;
 mod pairs;
 mod place;
 mod readings;

@@ -100,7 +100,7 @@ const SMALLEST: [Size; 5] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)];
 /// The areas of one robot.
 const ONE: [Size; 9] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2), (4, 2), (3, 3)];
 /// Those of two.
-const TWO: [Size; 6] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
+pub(super) const TWO: [Size; 6] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
 /// The areas of two robots with preferences, which have fewer states.
 const TWO_REPAIRED: [Size; 7] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2), (4, 2)];
 /// Those of three.
