@@ -1,5 +1,5 @@
-//! “Avoiding overlapping” (Rajesh, Nagaraja and Suja 2024, abstract) as double coverage: no robot enters as its frontier
-//! cell what another one has entered before. It is no clause: FRONTIER-2 is the other reading, two robots in one cell.
+//! “Avoiding overlapping” (Rajesh, Nagaraja and Suja 2024) as double coverage: no robot enters as its frontier cell
+//! what another one has entered before. It is no clause: FRONTIER-2 is the other reading, two robots in one cell.
 
 use std::collections::BTreeMap;
 
