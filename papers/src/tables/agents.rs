@@ -101,32 +101,35 @@ impl Table for Agents {
     }
 
     fn parts(&self, _: &Job) -> u64 {
-        self.figure.teams().len() as u64
+        self.figure.runs().len() as u64
     }
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let ((side, agents), seed) = (run.at, run.seed(settings.seed));
         let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
         let starts = vec![layout.default_base()?; agents.into()];
-        let chance = (self.figure.miss(), seed);
-        let run = |team: Team| team.crew.run(&layout, &starts, chance, settings.max_steps);
-        Ok(self.figure.teams().into_iter().map(run).collect())
+        let run = |(team, miss): (Team, _)| team.crew.run(&layout, &starts, (miss, seed), settings.max_steps);
+        Ok(self.figure.runs().into_iter().map(run).collect())
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let Settings { layouts, seed, max_steps } = *settings;
         let lines_at = |(side, agents)| {
             let here = at(&results, (side, agents));
-            let line = |(place, team)| {
+            let line = |(place, (team, _))| {
                 let outcomes: Vec<&Outcome> =
                     here.iter().filter_map(|outcomes| outcomes.get(place)).collect();
-                Line::of(team, side, agents, &outcomes)
+                Some((place, Line::of(team, side, agents, &outcomes)?))
             };
-            self.figure.teams().into_iter().enumerate().filter_map(line).collect::<Vec<_>>()
+            self.figure.runs().into_iter().enumerate().filter_map(line).collect::<Vec<_>>()
         };
-        let lines: Vec<Line> = self.figure.points().into_iter().flat_map(lines_at).collect();
+        let teams = self.figure.teams().len();
+        let all = self.figure.points().into_iter().flat_map(lines_at);
+        let (lines, unmissed): (Vec<_>, Vec<_>) = all.partition(|&(place, _)| place < teams);
+        let [lines, unmissed]: [Vec<Line>; 2] =
+            [lines, unmissed].map(|lines| lines.into_iter().map(|(_, line)| line).collect());
         let paper = text::of(self.figure, &lines);
-        Ok(Summary { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, paper })
+        Ok(Summary { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, unmissed, paper })
     }
 
     fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {

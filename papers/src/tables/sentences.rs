@@ -91,7 +91,7 @@ impl Verdict {
 }
 
 /// How far from a figure of a paper ours may be to be the same: a tenth of it. No paper gives a number.
-const SAME: f64 = 0.1;
+pub(super) const SAME: f64 = 0.1;
 
 /// The share that is “near 100 %”. No paper gives a number.
 pub(super) const NEAR: f64 = 0.95;

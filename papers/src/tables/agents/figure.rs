@@ -41,6 +41,21 @@ impl Figure {
         }
     }
 
+    /// The team that is run with no sensor missed, too: in Fig. 11 the paper's ants, whose readings are then one.
+    pub(super) fn unmissed(self) -> Option<Team> {
+        let [_, _, _, ants, ..] = TEAMS;
+        match self {
+            Self::Agents => Some(ants),
+            Self::Area | Self::Ideal => None,
+        }
+    }
+
+    /// The runs at each point: the teams, then the one that misses nothing.
+    pub(super) fn runs(self) -> Vec<(Team, Probability)> {
+        let teams = self.teams().into_iter().map(|team| (team, self.miss()));
+        teams.chain(self.unmissed().map(|team| (team, Probability::NEVER))).collect()
+    }
+
     /// How likely a sensor is missed.
     pub(super) const fn miss(self) -> Probability {
         match self {
@@ -59,6 +74,8 @@ pub struct Summary {
     pub(super) max_steps: u32,
     /// Point by point, each of all teams.
     pub lines: Vec<Line>,
+    /// Ants with no sensor missed, point by point, in Fig. 11.
+    pub unmissed: Vec<Line>,
     pub(super) paper: Vec<PrintedFigure>,
 }
 

@@ -1,6 +1,7 @@
 //! The figures of agents as text, with what the paper prints beside it.
 
 use super::super::prelude::*;
+use super::super::sentences::{NEAR, SAME};
 use super::figure::{Duration, Figure, Line, Summary};
 use super::team::{READINGS, TEAMS, Team};
 
@@ -20,7 +21,6 @@ pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
 pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
     let ([bricks, _, ants, ants_published, ..], [beside, in_count]) = (TEAMS, READINGS);
     let of = |team: Team| merged.lines.iter().filter(move |line| line.team == team);
-    let whole = |line: &Line| line.exploration.map_or(0, |duration| duration.seconds.count);
     let always_whole = |line| always(Estimate::share(whole(line), merged.layouts));
     let fewest = |team| {
         let fewest = of(team).map(whole).min().unwrap_or(0);
@@ -43,7 +43,11 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
                 let sentence = "“Ants always manage to explore 100% of the area's cells”";
                 Judgement::new(sentence, team.name(), fewest(team), verdict)
             });
-            [below_all].into_iter().chain(ants).collect()
+            let papers = [ants_published, beside, in_count];
+            let (share, time) =
+                (papers.map(|team| share(merged, team)), papers.map(|team| time(merged, team)));
+            let affected = share.into_iter().chain(time).flatten();
+            [below_all].into_iter().chain(ants).chain(affected).collect()
         }
         Figure::Area => {
             let (first, last) = (of(bricks).next(), of(bricks).next_back());
@@ -61,11 +65,7 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
         Figure::Ideal => {
             let ants = [ants, ants_published].into_iter().flat_map(|ants| {
                 of(bricks).zip(of(ants)).map(move |(one, other)| {
-                    let moves = |line: &Line| {
-                        let is_whole = whole(line) == merged.layouts;
-                        line.exploration.filter(|_| is_whole).map(|duration| duration.team_moves)
-                    };
-                    let (one_moves, other_moves) = (moves(one), moves(other));
+                    let (one_moves, other_moves) = (moves_of_all(merged, one), moves_of_all(merged, other));
                     let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
                     Judgement::new(
                         "“in idealized conditions, Brick&Mortar significantly outperforms Ants in terms of \
@@ -85,27 +85,104 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
     }
 }
 
+/// The runs that explored every cell.
+fn whole(line: &Line) -> u32 {
+    line.exploration.map_or(0, |duration| duration.seconds.count)
+}
+
+/// Team moves until every cell was explored, if that was so in all runs.
+fn moves_of_all(merged: &Summary, line: &Line) -> Option<Estimate> {
+    line.exploration.filter(|_| whole(line) == merged.layouts).map(|duration| duration.team_moves)
+}
+
+/// The two sentences that missed sensors hardly affect ants; no number tells how far “hardly” is.
+const AFFECTED: &str = "detection errors “hardly affect” Ants (VI), “minor effects on Ants” (V.B)";
+
+/// The lines of ants that miss sensors, each beside that of the paper's that miss none.
+fn beside_unmissed(merged: &Summary, team: Team) -> impl Iterator<Item = (&Line, &Line)> {
+    let lines = merged.lines.iter().filter(move |line| line.team == team);
+    lines.zip(&merged.unmissed)
+}
+
+/// Whether missed sensors hardly affect the share of the cells that ants explore, at every number of agents.
+fn share(merged: &Summary, team: Team) -> Option<Judgement> {
+    let all = || beside_unmissed(merged, team);
+    let is_near = |(line, unmissed): (&Line, &Line)| {
+        below(unmissed.explored.times(NEAR).interval, line.explored.interval)
+    };
+    let ratio = |(line, unmissed): (&Line, &Line)| line.explored.mean / unmissed.explored.mean;
+    let (line, unmissed) = all().min_by(|&one, &other| ratio(one).total_cmp(&ratio(other)))?;
+    Some(Judgement::new(
+        format!("{AFFECTED}: of the cells, {NEAR} or more of what is explored with none missed"),
+        team.name(),
+        format!(
+            "{} % against {} % at worst, by {}",
+            line.explored.text(1),
+            unmissed.explored.text(1),
+            counted(line.agents, "agent")
+        ),
+        all().map(is_near).fold(Verdict::Holds, Verdict::and),
+    ))
+}
+
+/// Whether missed sensors hardly affect how long ants explore, at every number of agents. Where fewer than half of the
+/// runs explore every cell, the median run takes longer than any in which none is missed.
+fn time(merged: &Summary, team: Team) -> Option<Judgement> {
+    let all = || beside_unmissed(merged, team);
+    let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
+    let is_near = |(line, unmissed): (&Line, &Line)| {
+        let longest = moves_of_all(merged, unmissed).map(|moves| moves.times(1.0 + SAME));
+        match moves_of_all(merged, line) {
+            None => Verdict::decided(false, longest.is_some() && 2 * whole(line) < merged.layouts),
+            moves => below(ends(moves), ends(longest)),
+        }
+    };
+    let times = |(line, unmissed): (&Line, &Line)| {
+        let mean = |line| moves_of_all(merged, line).map_or(f64::INFINITY, |moves| moves.mean);
+        (merged.layouts - whole(line), mean(line) / mean(unmissed))
+    };
+    let (line, unmissed) = all().max_by(|&one, &other| {
+        let ((fewer, one), (than, other)) = (times(one), times(other));
+        fewer.cmp(&than).then(one.total_cmp(&other))
+    })?;
+    let ours = match moves_of_all(merged, line) {
+        None => format!("everything in {} of {} runs", whole(line), merged.layouts),
+        moves => format!("{} team moves", Estimate::text_or_dash(moves, 0)),
+    };
+    let theirs = Estimate::text_or_dash(moves_of_all(merged, unmissed), 0);
+    Some(Judgement::new(
+        format!("{AFFECTED}: of the time, {} times or less of what it takes with none missed", 1.0 + SAME),
+        team.name(),
+        format!("{ours} against {theirs} team moves at worst, by {}", counted(line.agents, "agent")),
+        all().map(is_near).fold(Verdict::Holds, Verdict::and),
+    ))
+}
+
 /// The figure for people.
 pub(super) fn text(figure: Figure, merged: &Summary) -> String {
     let (missed, seconds) = match figure {
         Figure::Agents | Figure::Area => ("5.56 % of the sensors missed", String::new()),
         Figure::Ideal => ("no sensor missed", seconds(merged)),
     };
+    let unmissed = match &merged.unmissed[..] {
+        [] => String::new(),
+        lines => moves(merged, lines).title("Of these offices with no sensor missed").text(),
+    };
     format!(
-        "Offices of 4x4 rooms, {missed}, {} at each point, seeds from {}; means with 95 % intervals\n\n{}\n\
+        "Offices of 4x4 rooms, {missed}, {} at each point, seeds from {}; means with 95 % intervals\n\n{}{unmissed}\n\
          ended: runs that were stopped after {} of all agents. Where fewer than all runs explored every cell, or were\n\
          done, their number follows.\n{seconds}\n{}",
         counted(merged.layouts, "layout"),
         merged.seed,
-        moves(merged),
+        moves(merged, &merged.lines).text(),
         counted(merged.max_steps, "step"),
         paper::text(&merged.paper, 1, [40, 5, 13, 10])
     )
 }
 
-fn moves(merged: &Summary) -> String {
+fn moves<'a>(merged: &Summary, lines: &'a [Line]) -> Columns<&'a Line> {
     let moves = |duration| of_runs(merged, duration, |duration| duration.team_moves.text(0));
-    Columns::of(&merged.lines)
+    Columns::of(lines)
         .left("area", 7, |line| format!("{0}x{0}", line.side))
         .gap(1)
         .right("agents", 6, |line| line.agents)
@@ -117,7 +194,6 @@ fn moves(merged: &Summary) -> String {
         .right("moves until explored", 26, move |line| moves(line.exploration))
         .right("moves until done", 26, move |line| moves(line.termination))
         .right("ended", 5, |line| line.ended)
-        .text()
 }
 
 fn seconds(merged: &Summary) -> String {
