@@ -2,7 +2,7 @@
 
 use super::super::prelude::*;
 use super::figure::{Figure, Line};
-use super::team::{TEAMS, Team};
+use super::team::{BRICKS_PUBLISHED, Team};
 
 /// The figure, with the numbers that the paper prints.
 pub(super) fn chart(figure: Figure, lines: &[Line]) -> LineChart {
@@ -24,7 +24,7 @@ pub(super) fn chart(figure: Figure, lines: &[Line]) -> LineChart {
                 series(team, "explored", |line| Some(line.explored)),
                 series(team, "visited", |line| line.visited),
             ];
-            if figure == Figure::Agents && team == TEAMS[0] {
+            if figure == Figure::Agents && team == BRICKS_PUBLISHED {
                 drawn.extend([printed(team, "explored", 50.0), printed(team, "visited", 40.0)]);
             }
             drawn

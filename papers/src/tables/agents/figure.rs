@@ -1,7 +1,7 @@
 //! The points of a figure, and the means of the runs of a team at one of them.
 
 use super::super::prelude::*;
-use super::team::{Moment, Outcome, READINGS, TEAMS, Team};
+use super::team::{BRICKS_PUBLISHED, Moment, Outcome, READINGS, TEAMS, Team};
 use tautline_grids::chance::Probability;
 use tautline_sim::explore::Knowledge;
 
@@ -33,12 +33,14 @@ impl Figure {
         }
     }
 
-    /// The teams that are compared, in Fig. 11 by every reading of the ants as well.
+    /// The teams that are compared: Brick&Mortar as published too, and in Fig. 11 ants by every reading.
     pub(super) fn teams(self) -> Vec<Team> {
-        match self {
-            Self::Agents => [&TEAMS[..], &READINGS].concat(),
-            Self::Area | Self::Ideal => TEAMS.into(),
-        }
+        let [bricks, others @ ..] = TEAMS;
+        let readings: &[Team] = match self {
+            Self::Agents => &READINGS,
+            Self::Area | Self::Ideal => &[],
+        };
+        [&[bricks, BRICKS_PUBLISHED], &others[..], readings].concat()
     }
 
     /// The team that is run with no sensor missed, too: in Fig. 11 the paper's ants, whose readings are then one.

@@ -98,6 +98,10 @@ pub const TEAMS: [Team; 7] = [
     Team::new(&MDFS, RuleId::PUBLISHED, &Mdfs),
 ];
 
+/// Brick&Mortar as published, without the loop closure that the paper omits: beside the repaired one, whose laps are
+/// ours, in the figures of agents.
+pub(super) const BRICKS_PUBLISHED: Team = Team::new(&BRICKS, RuleId::PUBLISHED, &bricks::Rule::PUBLISHED);
+
 /// Ants by the other readings of what becomes of a missed sensor, whose old content those of [`TEAMS`] lose.
 pub(super) const READINGS: [Team; 2] = [
     Team::new(&ANTS, RuleId::new("beside"), &ants::Rule::Published(SensorFate::Beside)),

@@ -3,23 +3,27 @@
 use super::super::prelude::*;
 use super::super::sentences::{NEAR, SAME};
 use super::figure::{Duration, Figure, Line, Summary};
-use super::team::{READINGS, TEAMS, Team};
+use super::team::{BRICKS_PUBLISHED, READINGS, TEAMS, Team};
 
 /// The numbers that the paper prints: of Brick&Mortar in Fig. 11.
 pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
     let [bricks, ..] = TEAMS;
-    let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));
-    let one = one.filter(|_| figure == Figure::Agents);
-    let printed = [
-        PrintedFigure::of("% explored by one agent of bricks", 50.0, one.map(|line| line.explored)),
-        PrintedFigure::of("% visited by one agent of bricks", 40.0, one.and_then(|line| line.visited)),
-    ];
-    printed.into_iter().flatten().collect()
+    let of = |team: Team| {
+        let one = lines.iter().find(|line| (line.team, line.agents) == (team, 1));
+        let one = one.filter(|_| figure == Figure::Agents);
+        let what = |share| format!("% {share} by one agent of {}", team.name());
+        [
+            PrintedFigure::of(what("explored"), 50.0, one.map(|line| line.explored)),
+            PrintedFigure::of(what("visited"), 40.0, one.and_then(|line| line.visited)),
+        ]
+    };
+    [bricks, BRICKS_PUBLISHED].into_iter().flat_map(of).flatten().collect()
 }
 
 /// The sentences of V.B, of every point of the figure.
 pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
     let ([bricks, _, ants, ants_published, ..], [beside, in_count]) = (TEAMS, READINGS);
+    let both = [bricks, BRICKS_PUBLISHED];
     let of = |team: Team| merged.lines.iter().filter(move |line| line.team == team);
     let always_whole = |line| always(Estimate::share(whole(line), merged.layouts));
     let fewest = |team| {
@@ -28,16 +32,18 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
     };
     match figure {
         Figure::Agents => {
-            let reaches = of(bricks).map(always_whole).fold(Verdict::Fails, Verdict::or);
-            let never = of(bricks).all(|line| whole(line) < merged.layouts);
-            let most =
-                of(bricks).map(|line| line.explored).max_by(|one, other| one.mean.total_cmp(&other.mean));
-            let below_all = Judgement::new(
-                "“adding more agents … without however reaching the 100% mark”",
-                bricks.name(),
-                format!("at most {} %", Estimate::text_or_dash(most, 1)),
-                Verdict::decided(never, reaches == Verdict::Holds),
-            );
+            let below_all = both.map(|bricks| {
+                let reaches = of(bricks).map(always_whole).fold(Verdict::Fails, Verdict::or);
+                let never = of(bricks).all(|line| whole(line) < merged.layouts);
+                let explored = of(bricks).map(|line| line.explored);
+                let most = explored.max_by(|one, other| one.mean.total_cmp(&other.mean));
+                Judgement::new(
+                    "“adding more agents … without however reaching the 100% mark”",
+                    bricks.name(),
+                    format!("at most {} %", Estimate::text_or_dash(most, 1)),
+                    Verdict::decided(never, reaches == Verdict::Holds),
+                )
+            });
             let ants = [ants, ants_published, beside, in_count].map(|team| {
                 let verdict = of(team).map(always_whole).fold(Verdict::Holds, Verdict::and);
                 let sentence = "“Ants always manage to explore 100% of the area's cells”";
@@ -47,40 +53,45 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
             let (share, time) =
                 (papers.map(|team| share(merged, team)), papers.map(|team| time(merged, team)));
             let affected = share.into_iter().chain(time).flatten();
-            [below_all].into_iter().chain(ants).chain(affected).collect()
+            below_all.into_iter().chain(ants).chain(affected).collect()
         }
         Figure::Area => {
-            let (first, last) = (of(bricks).next(), of(bricks).next_back());
             let explored = |line: &Line| format!("{} % of {}x{1} cells", line.explored.text(1), line.side);
-            let judged = first.zip(last).map(|(first, last)| {
-                Judgement::new(
+            let judged = both.into_iter().filter_map(|bricks| {
+                let (first, last) = (of(bricks).next()?, of(bricks).next_back()?);
+                Some(Judgement::new(
                     "“as we increase the area size, the agents have more opportunities to be trapped”",
                     bricks.name(),
                     format!("{}, {}", explored(first), explored(last)),
                     below(last.explored.interval, first.explored.interval),
-                )
+                ))
             });
-            judged.into_iter().collect()
+            judged.collect()
         }
         Figure::Ideal => {
-            let ants = [ants, ants_published].into_iter().flat_map(|ants| {
+            let rivals = both.into_iter().flat_map(|bricks| [(bricks, ants), (bricks, ants_published)]);
+            let judged = rivals.flat_map(|(bricks, ants)| {
                 of(bricks).zip(of(ants)).map(move |(one, other)| {
-                    let (one_moves, other_moves) = (moves_of_all(merged, one), moves_of_all(merged, other));
-                    let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
+                    let others_moves = moves_of_all(merged, other);
                     Judgement::new(
                         "“in idealized conditions, Brick&Mortar significantly outperforms Ants in terms of \
                          exploration time”",
-                        format!("{}, {}", counted(one.agents, "agent"), ants.name()),
                         format!(
-                            "{} team moves against {}",
-                            Estimate::text_or_dash(one_moves, 0),
-                            Estimate::text_or_dash(other_moves, 0)
+                            "{}, {} against {}",
+                            counted(one.agents, "agent"),
+                            bricks.name(),
+                            ants.name()
                         ),
-                        below(ends(one_moves), ends(other_moves)),
+                        format!(
+                            "{} against {}",
+                            moves_or_runs(merged, one),
+                            Estimate::text_or_dash(others_moves, 0)
+                        ),
+                        is_sooner(merged, one, others_moves),
                     )
                 })
             });
-            ants.collect()
+            judged.collect()
         }
     }
 }
@@ -93,6 +104,24 @@ fn whole(line: &Line) -> u32 {
 /// Team moves until every cell was explored, if that was so in all runs.
 fn moves_of_all(merged: &Summary, line: &Line) -> Option<Estimate> {
     line.exploration.filter(|_| whole(line) == merged.layouts).map(|duration| duration.team_moves)
+}
+
+/// Team moves until every cell was explored, or in how many runs that was so if not in all.
+fn moves_or_runs(merged: &Summary, line: &Line) -> String {
+    match moves_of_all(merged, line) {
+        None => format!("everything in {} of {} runs", whole(line), merged.layouts),
+        moves => format!("{} team moves", Estimate::text_or_dash(moves, 0)),
+    }
+}
+
+/// Whether every cell is explored in fewer than so many team moves, which all runs of another team of as many agents
+/// took. Where fewer than half of the runs explore every cell, the median run takes longer than any of those.
+fn is_sooner(merged: &Summary, line: &Line, others: Option<Estimate>) -> Verdict {
+    let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
+    match moves_of_all(merged, line) {
+        None => Verdict::decided(false, others.is_some() && 2 * whole(line) < merged.layouts),
+        moves => below(ends(moves), ends(others)),
+    }
 }
 
 /// The two sentences that missed sensors hardly affect ants; no number tells how far “hardly” is.
@@ -125,17 +154,11 @@ fn share(merged: &Summary, team: Team) -> Option<Judgement> {
     ))
 }
 
-/// Whether missed sensors hardly affect how long ants explore, at every number of agents. Where fewer than half of the
-/// runs explore every cell, the median run takes longer than any in which none is missed.
+/// Whether missed sensors hardly affect how long ants explore, at every number of agents.
 fn time(merged: &Summary, team: Team) -> Option<Judgement> {
     let all = || beside_unmissed(merged, team);
-    let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
     let is_near = |(line, unmissed): (&Line, &Line)| {
-        let longest = moves_of_all(merged, unmissed).map(|moves| moves.times(1.0 + SAME));
-        match moves_of_all(merged, line) {
-            None => Verdict::decided(false, longest.is_some() && 2 * whole(line) < merged.layouts),
-            moves => below(ends(moves), ends(longest)),
-        }
+        is_sooner(merged, line, moves_of_all(merged, unmissed).map(|moves| moves.times(1.0 + SAME)))
     };
     let times = |(line, unmissed): (&Line, &Line)| {
         let mean = |line| moves_of_all(merged, line).map_or(f64::INFINITY, |moves| moves.mean);
@@ -145,10 +168,7 @@ fn time(merged: &Summary, team: Team) -> Option<Judgement> {
         let ((fewer, one), (than, other)) = (times(one), times(other));
         fewer.cmp(&than).then(one.total_cmp(&other))
     })?;
-    let ours = match moves_of_all(merged, line) {
-        None => format!("everything in {} of {} runs", whole(line), merged.layouts),
-        moves => format!("{} team moves", Estimate::text_or_dash(moves, 0)),
-    };
+    let ours = moves_or_runs(merged, line);
     let theirs = Estimate::text_or_dash(moves_of_all(merged, unmissed), 0);
     Some(Judgement::new(
         format!("{AFFECTED}: of the time, {} times or less of what it takes with none missed", 1.0 + SAME),
@@ -176,7 +196,7 @@ pub(super) fn text(figure: Figure, merged: &Summary) -> String {
         merged.seed,
         moves(merged, &merged.lines).text(),
         counted(merged.max_steps, "step"),
-        paper::text(&merged.paper, 1, [40, 5, 13, 10])
+        paper::text(&merged.paper, 1, [46, 5, 13, 10])
     )
 }
 
@@ -187,9 +207,9 @@ fn moves<'a>(merged: &Summary, lines: &'a [Line]) -> Columns<&'a Line> {
         .gap(1)
         .right("agents", 6, |line| line.agents)
         .gap(2)
-        .left("team", 16, |line| line.team.name())
+        .left("team", 18, |line| line.team.name())
         .gap(1)
-        .estimate("% explored", 15, 1, |line| line.explored)
+        .estimate("% explored", 13, 1, |line| line.explored)
         .estimate("% visited", 15, 1, |line| line.visited)
         .right("moves until explored", 26, move |line| moves(line.exploration))
         .right("moves until done", 26, move |line| moves(line.termination))
@@ -201,9 +221,9 @@ fn seconds(merged: &Summary) -> String {
     Columns::of(&merged.lines)
         .title("Hours of the slowest agent")
         .right("agents", 6, |line| line.agents)
-        .left("team", 16, |line| line.team.name())
+        .left("team", 18, |line| line.team.name())
         .gap(1)
-        .right("until explored", 20, move |line| hours(line.exploration))
+        .right("until explored", 18, move |line| hours(line.exploration))
         .right("until done", 20, move |line| hours(line.termination))
         .text()
 }
