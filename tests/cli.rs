@@ -233,17 +233,39 @@ fn ants_and_the_robust_rule_are_not_trapped() {
     assert_snapshot!(printed(folder, &["hunt", "--scheme", "bricks-ants", "--max-misses", "2", "--size", "3x3"], 0),
         @r#"
     bricks-ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 330 layouts, 169999 states, 196963 team moves
-    No agent is trapped in any layout within this bound.
+    No agent is trapped (done, or going round for ever, before every cell is explored) in any layout within this bound.
     "#);
     assert_snapshot!(printed(folder, &["hunt", "--scheme", "ants", "--max-misses", "2", "--size", "3x3"], 0), @r#"
     ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 330 layouts, 151247 states, 212690 team moves
-    No agent is trapped in any layout within this bound.
+    No agent is trapped (done, or going round for ever, before every cell is explored) in any layout within this bound.
     "#);
     let all = json(folder, &["hunt", "--scheme", "helpers", "--max-misses", "255", "--size", "2x2"], 0);
     assert_eq!((&all["complete"], &all["misses_done"]), (&true.into(), &255.into()));
     let short = json(folder, &["hunt", "--scheme", "bricks", "--budget", "1000"], 3);
     assert_eq!((&short["verdict"], &short["complete"]), (&"open".into(), &false.into()));
     assert_eq!(names(folder), [""; 0]);
+}
+
+/// Of agents that read how often cells were entered, and of robots of which a fix is off, too.
+#[test]
+fn whatever_a_hunt_stores_of_endless_runs_is_replayed() {
+    let hunts = [
+        (
+            "helpers --rule trusting --robots 1 --size 3x2 --max-misses 1",
+            "bricks-5-helpers-trusting-n1.jsonl",
+        ),
+        ("frontier --rule literal --robots 2 --size 3x1 --error 1", "frontier-3-literal-n2.jsonl"),
+    ];
+    for (hunt, endless) in hunts {
+        let folder = &folder();
+        let hunt: Vec<&str> = ["hunt", "--scheme"].into_iter().chain(hunt.split(' ')).collect();
+        printed(folder, &hunt, 1);
+        let stored = names(folder);
+        assert!(stored.iter().any(|name| name == endless), "{stored:?}");
+        for name in stored {
+            printed(folder, &["replay", &name], 1);
+        }
+    }
 }
 
 #[test]
@@ -455,7 +477,7 @@ fn clauses_are_decided_by_name() {
 fn a_bound_on_memory_leaves_checks_open_and_says_so() {
     let folder = &folder();
     let enough = printed(folder, &["prove", "KIT-12", "--memory", "1GiB"], 0);
-    assert!(enough.contains("verdicts are the registered ones."), "{enough}");
+    assert!(enough.contains("The verdict is the registered one."), "{enough}");
     let told = printed(folder, &["prove", "KIT-12", "--memory", "64KiB"], 3);
     assert!(told.contains("KIT-12 as repaired: open, registered as holds"), "{told}");
     assert!(told.contains("would have taken more than 48 KiB") && told.contains("--memory"), "{told}");

@@ -15,8 +15,9 @@ use crate::diagnostic::{self, BOM, Diagnostic};
 /// Larger files are refused before they are read. The drawing of the largest layout is smaller.
 pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
-/// Longer lines are refused; the header with its drawing may be longer.
-pub const MAX_LINE_BYTES: u64 = 1 << 16;
+/// Longer lines are refused; the header with its drawing may be longer. The end of a run that breaks clauses in a
+/// million team moves is shorter.
+pub const MAX_LINE_BYTES: u64 = 1 << 26;
 
 /// The beginning of a header, in every version.
 #[derive(Deserialize)]

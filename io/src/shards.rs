@@ -191,8 +191,19 @@ impl Plan {
         if (1..=MAX_SHARDS).contains(&shards) {
             return Ok(());
         }
-        let remedy = format!("give `shards` a number from 1 to {MAX_SHARDS}");
-        Err(Diagnostic::of_field("shards", format_args!("nothing is dealt out among {shards}"), remedy))
+        let what =
+            if shards == 0 { "nothing is dealt out among no shards" } else { "these are too many shards" };
+        Err(Diagnostic::of_field(
+            "shards",
+            what,
+            format_args!("give `shards` a number from 1 to {MAX_SHARDS}"),
+        ))
+    }
+
+    /// The fault of a plan that deals out something else than `work`.
+    pub fn none_of(&self, work: &str) -> Diagnostic {
+        let what = format!("this plan is none of {work}");
+        Diagnostic::in_file(&self.path, what, "run it with the command that planned it")
     }
 
     /// The plan that stands at `path`.

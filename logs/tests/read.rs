@@ -82,7 +82,7 @@ fn a_log_that_is_cut_anywhere_is_read_up_to_there() {
 
 #[test]
 fn damaged_logs_are_refused_with_the_place() {
-    let faults: [(&[u8], Option<usize>, &str); 16] = [
+    let faults: [(&[u8], Option<usize>, &str); 17] = [
         (b"t,robot,x,y\n,,,\n0,,0,0\n", Some(3), "no robot"),
         (b"", None, "the log is empty"),
         (b"t,robot,x,y\n", None, "no position"),
@@ -90,6 +90,7 @@ fn damaged_logs_are_refused_with_the_place() {
         (b"t,time,robot,x,y\n", Some(1), "a second column for the time"),
         (b"t,robot,x,y\n0,a,0,0\n0,a,1.0.0,0\n", Some(3), "\"1.0.0\" is no number"),
         (b"t,robot,x,y\n0,a,0\n0,a,0,0\n", Some(2), "no field 4"),
+        (b"t,robot,x,y\n0,a,1,5,0,0\n", Some(2), "6 fields, and the first one 4"),
         (b"t,robot,x,y\ninf,a,0,0\n", Some(2), "no such time"),
         (b"t,robot,x,y\n0,\xff,0,0\n", Some(2), "not UTF-8 text"),
         (b"{\"t\":0,\"robot\":\"a\",\"x\":0}\n", Some(1), "no y"),

@@ -54,8 +54,7 @@ pub fn deal_table(id: &str, asked: &dyn Experiment) -> Result<(Work, Box<RawValu
 /// # Errors
 /// [`Halt`] if it is none of a table, a person could not give its settings, or it has other jobs than they give.
 pub fn restored(plan: &Plan) -> Result<Box<dyn Experiment>, Halt> {
-    let none =
-        || Diagnostic::usage("this plan is none of a table", "run it with the command that planned it");
+    let none = || plan.none_of("a table");
     let Work::Table { id } = &plan.of else { return Err(none().into()) };
     let table = find(id).ok_or_else(none)?;
     let deal: Deal = decode(&plan.deal, AS_WRITTEN).map_err(|fault| fault.found_in(plan.path()))?;

@@ -36,7 +36,7 @@ pub fn hunted(plan: &Plan, catalogue: Catalogue) -> Result<HuntRequest<'static>,
     {
         return Ok(HuntRequest::new(scheme, rule.name));
     }
-    Err(Diagnostic::usage("this plan is none of a hunt", "run it with the command that planned it"))
+    Err(plan.none_of("a hunt"))
 }
 
 /// Deals a hunt out among so many shards.

@@ -99,8 +99,7 @@ impl Dealt {
     /// A [`Diagnostic`] if it is a plan of something else.
     fn restored(plan: &Plan) -> Result<Self, Diagnostic> {
         let Work::Library { rules, larger } = &plan.of else {
-            let what = "this plan is none of the library";
-            return Err(Diagnostic::usage(what, "run it with the command that planned it"));
+            return Err(plan.none_of("the library"));
         };
         let rules = chosen(rules).map_err(|fault| fault.found_in(plan.path()))?;
         Ok(Self::of(&clauses(&rules, *larger), plan.shards))

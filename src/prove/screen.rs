@@ -132,6 +132,7 @@ pub(super) fn last_line(rows: &[Row]) -> String {
     let _ = match differ {
         // A signal came before any check was decided.
         0 if rows.is_empty() => Ok(()),
+        0 if rows.len() == 1 => writeln!(text, "The verdict is the registered one."),
         0 => writeln!(text, "All {} verdicts are the registered ones.", rows.len()),
         _ => writeln!(text, "{differ} of {} verdicts are not the registered ones.", rows.len()),
     };

@@ -110,10 +110,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
             reading.log.cut = Some(line as u32);
             break;
         }
-        let Columns { time, robot, along, .. } = columns;
+        let Columns { time, robot, along, count } = columns;
+        let remedy = "give every line as many fields as the first one";
+        if let Some(more) = (*count..record.len()).find(|&more| !record[more].is_empty()) {
+            let what = format!("this line has {} fields, and the first one {count}", record.len());
+            return Err(fault(line, &record, &between, Some(more), what, remedy));
+        }
         let field = |column: usize| {
             let what = || format!("this line has {} fields and no field {}", record.len(), column + 1);
-            let remedy = "give every line as many fields as the first one";
             record.get(column).ok_or_else(|| fault(line, &record, &between, None, what(), remedy))
         };
         let number = |(column, scale): (usize, f64)| {

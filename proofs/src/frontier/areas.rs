@@ -141,7 +141,8 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         let barred = area.cells().filter(|&cell| truth.status(cell) == Status::Obstacle).collect();
         let round = steps.len() - once;
         let events: Vec<Event> = steps.into_iter().map(|(event, _)| event).collect();
-        case(self.run.demand.clause(), (rule, area, barred), &start.cells(), &events, round)
+        let floor = (rule, area, barred);
+        case(self.run.demand.clause(), floor, &start.cells(), &events, round, self.setting.max_wrong > 0)
     }
 
     /// The events, a line for each step.
@@ -166,13 +167,15 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 }
 
 /// A run from `starts` by a rule, in an area with obstacles, of which the last `round` steps come again for ever, said
-/// to break `clause`: written down for the judge; `None` if it knows no such rule, or a message is lost.
+/// to break `clause`: written down for the judge; `None` if it knows no such rule, or a message is lost. `errs` says
+/// whether fixes may be off.
 pub fn case(
     clause: &'static str,
     (rule, area, barred): (Rule, Area, Vec<Cell>),
     starts: &[Cell],
     events: &[Event],
     round: usize,
+    errs: bool,
 ) -> Option<Box<dyn AnyCase>> {
     let rule = match rule {
         Rule::PUBLISHED => judge::Rule::Published,
@@ -186,7 +189,7 @@ pub fn case(
     let floor = Floor { columns: area.width() as i32, rows: area.height() as i32, barred };
     let starts = starts.iter().copied().map(place).collect();
     let steps = events.iter().map(written).collect::<Option<Vec<_>>>()?;
-    Some(Box::new(judge::Run { clause, rule, floor, starts, steps, round }))
+    Some(Box::new(judge::Run { clause, rule, floor, starts, steps, round, errs }))
 }
 
 /// An event as the judge reads it, if no message is lost.

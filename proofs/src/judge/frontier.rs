@@ -25,6 +25,8 @@ pub struct Run {
     pub steps: Vec<Step>,
     /// The last of the steps that are said to come again for ever; 0 if the run ends.
     pub round: usize,
+    /// Whether fixes may be off, each by one cell, as in FRONTIER-5.
+    pub errs: bool,
 }
 
 /// The rules without repairs.
@@ -261,8 +263,10 @@ impl Run {
                 let cell = beside(robot.cell, side).ok_or("there is no such side")?;
                 let fix = step.fix.filter(|&fix| self.floor.has(fix)).ok_or("a fix is in the area")?;
                 let is_beside = (fix.0 - cell.0).abs() + (fix.1 - cell.1).abs() == 1;
-                let may_err = is_beside && self.clause == "FRONTIER-5";
-                must(fix == cell || may_err, "only in FRONTIER-5 a fix is off, and by one cell")?;
+                must(
+                    fix == cell || is_beside && self.errs,
+                    "only where fixes may err one is off, and by one cell",
+                )?;
                 let robot = &mut team.robots[own];
                 (robot.cell, robot.at, robot.stance) = (cell, fix, Stance::Stands);
                 self.tell(team, own, (fix, true));

@@ -249,18 +249,21 @@ impl<S: Scheme> Agents<S> {
 /// Agents that may go round for ever.
 struct Patrol<S: Scheme> {
     team: Agents<S>,
-    /// If a team that comes back to where it was goes on for ever: nothing is left to chance, and no agent reads the
-    /// crossings, which only grow.
+    /// If a team that comes back to where it was goes on for ever: nothing is left to chance.
     watch: Option<Watch<S>>,
+    /// The most cells that were visited, and the team moves since they were, with everything explored.
+    still: (u32, u64),
 }
+
+/// Team moves for each cell in which no more are visited, with everything explored, before a run is idle.
+const MOST_STILL: u64 = 1000;
 
 /// The agents of `setup`, each at its start.
 pub(super) fn start<S: Scheme>(setup: &Setup, scheme: S) -> Box<dyn Team> {
     let mut team = Agents::new(scheme, &setup.layout, &setup.starts(), setup.miss, setup.seed);
     team.misses.written.clone_from(&setup.missed);
-    let repeats = !scheme.reads_crossings(Sight::Partial) && setup.miss.is_never();
-    let watch = repeats.then(|| Watch::new(&team));
-    Box::new(Patrol { team, watch })
+    let watch = setup.miss.is_never().then(|| Watch::new(&team));
+    Box::new(Patrol { team, watch, still: (0, 0) })
 }
 
 /// The cells of `layout` that agents can get to from `starts` and that are not visited, as `chart` shows.
@@ -275,13 +278,18 @@ impl<S: Scheme> Team for Patrol<S> {
     }
 
     fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
+        let whole = self.team.whole();
+        let is_explored = whole.explored == whole.cells;
         if self.team.is_over() {
-            let whole = self.team.whole();
-            let is_explored = whole.explored == whole.cells;
             return Err(if is_explored { End::Explored } else { End::Exhausted });
         }
         if self.watch.as_mut().is_some_and(|watch| watch.has_come_round(&self.team)) {
             return Err(End::Endless);
+        }
+        let (most, moves) = self.still;
+        self.still = if is_explored && whole.visited <= most { (most, moves + 1) } else { (whole.visited, 0) };
+        if self.still.1 > MOST_STILL * u64::from(whole.cells) {
+            return Err(End::Idle);
         }
         // A team that somebody decides about may come back to where it was and go on in another way.
         if self.team.advance_in(world) {
@@ -307,7 +315,7 @@ impl<S: Scheme> Team for Patrol<S> {
         let Component { cells, explored, visited, .. } = self.team.whole();
         let is_unexplored = end == End::Endless && explored < cells;
         let is_promised = self.team.scheme.promises(self.team.misses.sight());
-        let is_unvisited = is_promised && visited < cells;
+        let is_unvisited = is_promised && end != End::Idle && visited < cells;
         broken([(is_unvisited, UNVISITED), (is_unexplored, UNEXPLORED)])
     }
 
@@ -337,11 +345,13 @@ impl<S: Scheme> Team for Patrol<S> {
 }
 
 /// Looks for runs that go on for ever: agents and claims that are as they were, with no mark and no side changed in
-/// between, go round (Brent 1980).
+/// between, go round (Brent 1980); agents that read crossings do on a floor that is alike.
 struct Watch<S: Scheme> {
     bodies: Vec<BodyOf<S>>,
     claims: BTreeMap<usize, Claim>,
     gains: u64,
+    /// The floor, if agents read its crossings.
+    floor: Option<SensorFloor<S::Sensor>>,
     /// Team moves since this was noted, and how many there are until the next note.
     moves: u64,
     due: u64,
@@ -353,9 +363,14 @@ impl<S: Scheme> Watch<S> {
             bodies: team.bodies.clone(),
             claims: team.floor.claims.clone(),
             gains: team.floor.gains,
+            floor: None,
             moves: 0,
-            due: 1,
+            due: if Self::reads_crossings(team) { team.whole().cells.into() } else { 1 },
         }
+    }
+
+    fn reads_crossings(team: &Agents<S>) -> bool {
+        team.scheme.reads_crossings(Sight::Partial)
     }
 
     /// Whether the team, which has made a team move since the last call, is where it was.
@@ -364,11 +379,17 @@ impl<S: Scheme> Watch<S> {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;
         }
-        if self.moves > 0 && self.bodies == team.bodies && self.claims == team.floor.claims {
+        let is_alike = || {
+            let mut then = self.floor.iter();
+            !Self::reads_crossings(team)
+                || then.any(|then| team.floor.is_alike(then, |mark| team.scheme.passes(mark)))
+        };
+        if self.moves > 0 && self.bodies == team.bodies && self.claims == team.floor.claims && is_alike() {
             return true;
         }
         if self.moves == self.due {
-            *self = Self { due: 2 * self.due, ..Self::new(team) };
+            let floor = Self::reads_crossings(team).then(|| team.floor.clone());
+            *self = Self { due: 2 * self.due, floor, ..Self::new(team) };
         }
         self.moves += 1;
         false

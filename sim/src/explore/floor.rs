@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::mem;
 
 use tautline_kernel::floor::{Claim, Floor, Mark};
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::floor::crew::SensorData;
 
 use super::scene::{Ink, Layer, Place as Spot, Scene, Shape, Value};
@@ -202,6 +202,34 @@ impl<D: SensorData> SensorFloor<D> {
             index != here && usize::from(place.component) == number + 1 && is_left(place.sensor.mark())
         };
         component.explored < component.cells || self.places.iter().enumerate().any(is_other_left)
+    }
+
+    /// Whether agents do here as they did on the floor `then` of the same layout: sensors differ in their crossings
+    /// alone, and these have grown alike wherever agents go from one cell to the other, through marks that they pass.
+    pub(super) fn is_alike(&self, then: &Self, passes: impl Fn(Mark) -> bool) -> bool {
+        let grown = |cell: Cell| {
+            let [then, now] = [then, self].map(|floor| floor.sensor(cell).unwrap_or_default().crossings());
+            now.checked_sub(then).filter(|&grown| grown == 0 || then >= D::ALIKE_FROM)
+        };
+        let is_kept = |cell: Cell, sensor: D| {
+            let is_crossed = |side: Side| {
+                let Some(beside) = self.sensor(cell.beyond(side)).filter(|beside| passes(beside.mark()))
+                else {
+                    return false;
+                };
+                let [here, there] = [(sensor, side), (beside, side.opposite())];
+                let shuts = |(sensor, side): (D, Side)| sensor.shut().has(Step::Cross(side));
+                self.is_open(Edge::new(cell, side)) && !(shuts(here) && shuts(there))
+            };
+            let mut crossed = Side::ALL.into_iter().filter(|&side| is_crossed(side));
+            let grown_here = grown(cell);
+            let is_as_it_was =
+                then.sensor(cell).map(|then| then.with_crossings(0)) == Some(sensor.with_crossings(0));
+            is_as_it_was
+                && grown_here.is_some()
+                && (grown_here == Some(0) || crossed.all(|side| grown(cell.beyond(side)) == grown_here))
+        };
+        self.size.area().cells().all(|cell| self.sensor(cell).is_none_or(|sensor| is_kept(cell, sensor)))
     }
 
     pub(super) fn forget_changes(&mut self) {

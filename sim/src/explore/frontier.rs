@@ -89,7 +89,7 @@ pub static FRONTIER: Profile = Profile {
         Clause::new(KNOWS.as_str()),
         Clause::new(MARKS.as_str()),
     ],
-    case: |setup, clause, _| super::team(setup).ok()?.case(setup, clause),
+    case: |setup, clause, _| super::team(setup).ok()?.case(&setup.layout, clause),
     ..Profile::named("frontier")
 };
 
@@ -105,7 +105,8 @@ fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     let objects =
         options.objects.as_ref().map(|objects| objects.places(&setup.layout.reachable(&starts), &mut dice));
     let robots = Explorers::new(rule, &setup.layout, &starts, options, setup.seed);
-    Ok(team(setup, Who::Robots(Box::new(robots.among(objects.unwrap_or_default())))))
+    let robots = robots.among(objects.unwrap_or_default()).looked_around();
+    Ok(team(setup, Who::Robots(Box::new(robots))))
 }
 
 /// The team of `setup` whose cells are assigned.

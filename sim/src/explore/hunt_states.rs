@@ -22,6 +22,9 @@ const DEFAULT_AGENTS: u64 = 1;
 /// Sensors that are missed at most when nobody says how many.
 const DEFAULT_MISSES: u8 = 1;
 
+/// The words for a trap.
+const TRAPPED: &str = "done, or going round for ever, before every cell is explored";
+
 /// The rule of a crew: how it starts, and how it is hunted.
 macro_rules! crew {
     ($rule:expr, $crew:expr) => {
@@ -131,11 +134,12 @@ impl<C: Crew> Each for Traps<C> {
             done: CoveredBound::MissesDone(done),
             through: format!("{all_layouts} and {all_states}"),
             outcome: match (&found[..], is_complete) {
-                ([], _) => format!("No agent is trapped {bound}."),
+                ([], _) => format!("No agent is trapped ({TRAPPED}) {bound}."),
                 (_, false) => "Found before the hunt was ended; it need not be the smallest:".to_owned(),
                 (_, true) => {
-                    "The fewest missed sensors and the smallest layout with which agents are trapped:"
-                        .to_owned()
+                    format!(
+                        "The fewest missed sensors and the smallest layout with which agents are trapped ({TRAPPED}):"
+                    )
                 }
             },
             not_minimised: Vec::new(),

@@ -10,7 +10,6 @@ use tautline_proofs::run::Frame;
 use super::clause::ClauseId;
 use super::floor::Component;
 use super::scene::{Layer, Refusal, Scene};
-use super::scheme::Setup;
 use super::survey::Survey;
 use crate::failures::Failures;
 use crate::objects::ObjectReport;
@@ -69,9 +68,9 @@ pub trait Team {
         Vec::new()
     }
 
-    /// The whole run of `setup` from here on, written down for a judge as one that breaks `clause`; `None` unless it is
-    /// made by the choices of a search and a judge reads it.
-    fn case(&mut self, _setup: &Setup, _clause: ClauseId) -> Option<Box<dyn Case>> {
+    /// The whole run in the layout from here on, written down for a judge as one that breaks a clause; `None` unless it
+    /// is made by the choices of a search and a judge reads it.
+    fn case(&mut self, _layout: &Layout, _clause: ClauseId) -> Option<Box<dyn Case>> {
         None
     }
 

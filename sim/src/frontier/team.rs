@@ -142,12 +142,10 @@ impl Explorers {
         self.poses().map(|(at, belief, _)| at.distance_m(belief.at()))
     }
 
-    /// This team among objects at these places, in sides of a cell: a robot sees those in the cell where it starts and
-    /// in each that it enters.
+    /// This team among objects at these places, in sides of a cell: a robot sees those in each cell that it enters.
     #[must_use]
     pub fn among(mut self, objects: impl IntoIterator<Item = Point>) -> Self {
         self.objects = objects.into_iter().map(|object| (object, None)).collect();
-        (0..self.robots.len()).for_each(|robot| self.look_around(robot));
         self
     }
 
@@ -158,6 +156,13 @@ impl Explorers {
             let seen = radio.sees(&poses[robot], *object);
             *known = Some(known.map_or(seen, |known| known.merged(seen)));
         }
+    }
+
+    /// This team after each robot has looked around in its start.
+    #[must_use]
+    pub fn looked_around(mut self) -> Self {
+        (0..self.robots.len()).for_each(|robot| self.look_around(robot));
+        self
     }
 
     /// Objects, and where the robots that have seen them take them to be, together.

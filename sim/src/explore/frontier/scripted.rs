@@ -100,12 +100,13 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         broken.map(|demand| ClauseId::new(demand.clause())).collect()
     }
 
-    fn case(&mut self, setup: &Setup, clause: ClauseId) -> Option<Box<dyn Case>> {
+    fn case(&mut self, layout: &Layout, clause: ClauseId) -> Option<Box<dyn Case>> {
         let events: Vec<Event> = self.script.rest().into_iter().map(|turned| turned.event).collect();
         let round = if clause == ENDS { self.script.round()?.len() } else { 0 };
-        let Setting { rule, area, .. } = self.script.system;
-        let barred = setup.layout.cells().filter(|&cell| !setup.layout.is_free(cell)).collect();
-        Some(areas::case(clause.as_str(), (rule, area, barred), &setup.starts(), &events, round)?)
+        let Setting { rule, area, max_wrong, .. } = self.script.system;
+        let barred = layout.cells().filter(|&cell| !layout.is_free(cell)).collect();
+        let floor = (rule, area, barred);
+        Some(areas::case(clause.as_str(), floor, &self.cells, &events, round, max_wrong > 0)?)
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {

@@ -96,11 +96,11 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         broken.collect::<BTreeSet<ClauseId>>().into_iter().collect()
     }
 
-    fn case(&mut self, setup: &Setup, clause: ClauseId) -> Option<Box<dyn Case>> {
+    fn case(&mut self, layout: &Layout, clause: ClauseId) -> Option<Box<dyn Case>> {
         let start = self.script.state;
         let steps: Vec<Successor<ROBOTS>> = self.script.rest();
         let round = if clause == ENDS { self.script.round()?.len() } else { 0 };
-        let walls: Vec<Edge> = setup.layout.walls().collect();
+        let walls: Vec<Edge> = layout.walls().collect();
         Some(counterexample::case(clause.as_str(), (&self.script.system, &walls), &start, steps, round)?)
     }
 
