@@ -3,8 +3,9 @@
 //!
 //! Left open by the paper, and chosen here: a particle starts within 1 m of the closed form along each axis, with a
 //! velocity of 0 to v_max along each; the fitness is the sum of the squared residuals of the distances; `rand()` is one
-//! number for each term and particle, or one for each axis besides ([`Draws`]); v_max is 1 m along each axis, and holds
-//! after each update. Equation (10) adds the velocity of time t, the algorithm updates the velocity first: [`Order`].
+//! number for each term and particle, or one for each axis besides ([`Draws`]); v_max is 1 m along each axis. The steps
+//! bound the first velocities by it alone; whether it bounds later ones, too, is a parameter. Equation (10) adds the
+//! velocity of time t, the algorithm updates the velocity first: [`Order`].
 
 use super::range::check;
 use super::{Point, Range, Refusal};
@@ -57,7 +58,9 @@ pub struct Parameters {
     pub team: f64,
     /// How far from the start a particle begins along each axis, at most, in metres.
     pub spread_m: f64,
-    /// v_max: how far a particle moves along each axis in an iteration, at most, in metres.
+    /// v_max: how far a particle moves along each axis in the first iteration, at most, in metres.
+    pub first_speed_m: f64,
+    /// How far it moves in each later one, at most: v_max, or infinity where that bounds the first velocity alone.
     pub most_speed_m: f64,
     /// How many times the particles move: t_max.
     pub iterations: u32,
@@ -74,6 +77,7 @@ impl Parameters {
         own: 1.496_18,
         team: 1.496_18,
         spread_m: 1.0,
+        first_speed_m: 1.0,
         most_speed_m: 1.0,
         iterations: 20,
         order: Order::Corrected,
@@ -164,14 +168,14 @@ impl<'a> Swarm<'a> {
         }
         let mut swarm =
             Self { ranges, parameters, particles, best: around, best_cost: f64::INFINITY, iteration: 0 };
-        let Parameters { spread_m, most_speed_m, .. } = parameters;
+        let Parameters { spread_m, first_speed_m, .. } = parameters;
         let mut about = |middle: f64| middle + spread_m * (2.0 * draw(oracle) - 1.0);
         for particle in &mut *swarm.particles {
             let at = Point::new(about(around.x_m), about(around.y_m));
             *particle = Particle { at, best: at, ..Particle::UNUSED };
         }
         for particle in &mut *swarm.particles {
-            particle.velocity = Point::new(most_speed_m * draw(oracle), most_speed_m * draw(oracle));
+            particle.velocity = Point::new(first_speed_m * draw(oracle), first_speed_m * draw(oracle));
         }
         swarm.remember();
         Ok(swarm)
