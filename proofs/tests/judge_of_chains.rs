@@ -33,7 +33,11 @@ fn counterexamples() -> Vec<JudgeInput> {
     let exhausting =
         |observed| Bounds { invariants: vec![Invariant::Exhausts], ..Bounds::new(observed, 3, 3) };
     let any_order = Bounds { invariants: vec![Invariant::AnyOrder], ..Bounds::new(Subject::REPAIRED, 4, 3) };
+    let exchange =
+        |observed| Bounds { invariants: vec![Invariant::Exchanges], ..Bounds::new(observed, 3, 1) };
     let bounds = [
+        exchange(Subject::PUBLISHED),
+        exchange(Subject::REPAIRED),
         Bounds::new(Subject::PUBLISHED, 4, 4),
         exhausting(Subject::PUBLISHED),
         exhausting(Subject::REPAIRED),

@@ -102,6 +102,7 @@ fn assert_sizes_of_the_rest(most: &Most) {
         assert_eq!(smallest(other, Invariant::COMPLETENESS, most), left_out);
         assert_eq!(smallest(other, Invariant::Exhausts, most), left_out);
         assert_eq!(smallest(other, Invariant::Meets, most), Some(((4, 1), 1, 3, 6)));
+        assert_eq!(smallest(other, Invariant::Exchanges, most), Some(((2, 3), 1, 3, 6)));
     }
 }
 
@@ -125,7 +126,7 @@ fn nothing_smaller_breaks_the_published_rule_in_other_orders() {
     assert_eq!(smallest(SWAPPED, Invariant::CROWDING, &twelve), Some(((4, 3), 3, 4, 9)));
 }
 
-/// CHAIN-14, 19 and 27.
+/// CHAIN-14, 19, 27 and 28.
 #[test]
 fn what_is_refuted_as_repaired_is_so_in_other_orders() {
     let most = Most { cells: 9, barriers: 3, robots: 3..=4 };
@@ -133,6 +134,7 @@ fn what_is_refuted_as_repaired_is_so_in_other_orders() {
         assert_eq!(smallest(other, Invariant::Exhausts, &most), Some(((3, 3), 3, 3, 32)));
         assert_eq!(smallest(other, Invariant::AnyOrder, &most), Some(((4, 2), 1, 4, 7)));
         assert_eq!(smallest(other, Invariant::Meets, &most), Some(((4, 1), 1, 3, 6)));
+        assert_eq!(smallest(other, Invariant::Exchanges, &most), Some(((2, 3), 1, 3, 6)));
     }
 }
 

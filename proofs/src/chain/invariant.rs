@@ -69,6 +69,8 @@ pub enum Invariant {
     Meets,
     /// CHAIN-27, of advances alone.
     MeetsInAdvance,
+    /// CHAIN-28: no two robots exchange their cells.
+    Exchanges,
 }
 
 impl Invariant {
@@ -85,8 +87,9 @@ impl Invariant {
     pub const OF_RUNS: [Self; 5] =
         [Self::CONTACT, Self::CROWDING, Self::COVERAGE, Self::COMPLETENESS, Self::Ends];
 
-    /// Those that a hunt looks for in the runs of a chain that claims to follow `rule`. CHAIN-14 and CHAIN-27 no rule
-    /// keeps, so that every hunt would end with them; and of advances CHAIN-27 follows from CHAIN-5 in any layout.
+    /// Those that a hunt looks for in the runs of a chain that claims to follow `rule`. CHAIN-14, CHAIN-27 and CHAIN-28
+    /// no rule keeps, so that every hunt would end with them; and of advances CHAIN-27 follows from CHAIN-5 in any
+    /// layout.
     pub fn of_hunts(rule: &Rule) -> Vec<Self> {
         let of_reels = match rule.pursuit {
             Pursuit::Reel(_) => Some(Self::Short),
@@ -126,6 +129,7 @@ impl Invariant {
             (Self::Chosen, ..) => &[Self::Chosen],
             (Self::Meets, ..) => &[Self::Meets],
             (Self::MeetsInAdvance, ..) => &[Self::MeetsInAdvance],
+            (Self::Exchanges, ..) => &[Self::Exchanges],
             (_, Pursuit::Reel(_), Some((Self::AnyOrder, others))) if !rule.has(Condition::Hold) => others,
             (_, Pursuit::Reel(_), _)
             | (Self::Falls | Self::Arrives | Self::Doubles | Self::Short, Pursuit::Epochs, _) => {
@@ -175,6 +179,7 @@ impl Invariant {
             Self::Short => "CHAIN-24",
             Self::Chosen => "CHAIN-25",
             Self::Meets | Self::MeetsInAdvance => "CHAIN-27",
+            Self::Exchanges => "CHAIN-28",
         }
     }
 
@@ -209,6 +214,10 @@ impl Invariant {
             Self::Doubles => moment.doubles(),
             Self::MeetsInAdvance if moment.plan.kind == Kind::Backtrack => Ok(()),
             Self::Meets | Self::MeetsInAdvance => moment.meets_blocked(),
+            Self::Exchanges => {
+                let exchange = exchange(moment.before.cells(), moment.after.cells());
+                require(!exchange, "no two robots outside the base exchange their cells")
+            }
         }
     }
 }
@@ -502,6 +511,15 @@ pub(super) fn meet_unblocked(before: &[Cell], after: &[Cell], passes: impl Fn(us
         after[one] == after[other] && after[one] != after[0] && is_entered
     };
     (2..after.len()).any(|other| (1..other).any(|one| meet(one, other) && passes(one) && passes(other)))
+}
+
+/// Whether two robots have exchanged their cells, neither of which is the base.
+pub(super) fn exchange(before: &[Cell], after: &[Cell]) -> bool {
+    let exchange = |one: usize, other: usize| {
+        let (from, to) = (before[one], after[one]);
+        from != to && from == after[other] && to == before[other] && ![from, to].contains(&after[0])
+    };
+    (2..after.len()).any(|other| (1..other).any(|one| exchange(one, other)))
 }
 
 /// Whether neighbours are in contact, each of the two having gone, or not yet.

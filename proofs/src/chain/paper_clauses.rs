@@ -1,5 +1,6 @@
-//! Two more sentences of Kovács, Pásztor and Istenes 2011 about the chain: how soon it explores a share of an open area
-//! (II.E), and when two robots arrive in one cell (III.D). They follow those of [`super::own_clauses`].
+//! More sentences of Kovács, Pásztor and Istenes 2011 about the chain: how soon it explores a share of an open area
+//! (II.E), when two robots arrive in one cell, and how far from each other they are (III.D). They follow those of
+//! [`super::own_clauses`].
 
 use tautline_kernel::chain::Condition::Distinct;
 
@@ -13,8 +14,11 @@ use crate::clause::{Check, Clause};
 /// The reason why no repair of ours keeps CHAIN-27.
 const TAKEN_BACK: &str = "no repair yet: a backtrack repeats it";
 
+/// The reason why no repair of ours keeps CHAIN-28.
+const UNASKED: &str = "no repair yet: no condition asks for it";
+
 /// The clauses.
-pub const CLAUSES: [Clause; 2] = [
+pub const CLAUSES: [Clause; 3] = [
     Clause {
         id: "CHAIN-26",
         sentence: "Without obstacles the chain MUST have explored half, and three quarters, of the cells after as few \
@@ -40,6 +44,15 @@ pub const CLAUSES: [Clause; 2] = [
             ),
             &Check::refuted(REEL, &EveryArea(Invariant::Meets, AREAS, AREAS)).because(TAKEN_BACK),
             &Check::holds(REEL, &fewer_walls(Invariant::MeetsInAdvance), &[lacking(Subject::REEL, Distinct)]),
+        ],
+    },
+    Clause {
+        id: "CHAIN-28",
+        sentence: "Two robots MUST never exchange their cells in one team move, unless one of these is the base.",
+        checks: &[
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::Exchanges, AREAS, AREAS)),
+            &Check::refuted(REPAIRED, &EveryArea(Invariant::Exchanges, AREAS, AREAS)).because(UNASKED),
+            &Check::refuted(REEL, &EveryArea(Invariant::Exchanges, AREAS, AREAS)).because(UNASKED),
         ],
     },
 ];

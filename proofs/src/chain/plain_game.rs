@@ -9,7 +9,7 @@ use tautline_kernel::ground::Step;
 
 use super::bounds::Bounds;
 use super::game::{MOVES_OF_A_CELL, left_out, words_of_end};
-use super::invariant::{Invariant, holds_in_any_order, meet_unblocked};
+use super::invariant::{Invariant, exchange, holds_in_any_order, meet_unblocked};
 use super::plain::{PlainChain, PlainIntent};
 use crate::engine::tree::Game;
 use crate::engine::world::{Turn, World};
@@ -69,6 +69,7 @@ impl World for PlainGame {
             Invariant::Without(breach) => breach.is_in(before, after),
             Invariant::AnyOrder => !holds_in_any_order(before, after),
             Invariant::Meets => meet_unblocked(before, after, passes),
+            Invariant::Exchanges => exchange(before, after),
             _ => false,
         };
         self.bounds.invariants.iter().copied().filter(is_in).collect()

@@ -7,8 +7,8 @@ use super::place::{Place, SIDES, add, side_between};
 /// A counterexample, written down.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct JudgeInput {
-    /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2`, `CHAIN-3`, `CHAIN-19` or `CHAIN-27`, or
-    /// its end, `CHAIN-13` or `CHAIN-14`.
+    /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2`, `CHAIN-3`, `CHAIN-19`, `CHAIN-27` or
+    /// `CHAIN-28`, or its end, `CHAIN-13` or `CHAIN-14`.
     pub clause: &'static str,
     /// The rule that the team is said to follow.
     pub repairs: Repairs,

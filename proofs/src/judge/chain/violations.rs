@@ -15,6 +15,7 @@ pub(super) fn broken(clause: &str) -> Option<Violation> {
         "CHAIN-13" => Violation::AtEnd(|court| Ok(misses_within_reach(court))),
         "CHAIN-19" => Violation::ByMove(|court, made| order_loses_contact(&court.places, &made.places)),
         "CHAIN-27" => Violation::ByMove(|court, made| robots_meet(&court.places, made)),
+        "CHAIN-28" => Violation::ByMove(|court, made| robots_exchange(&court.places, &made.places)),
         "CHAIN-14" => Violation::AtEnd(|court| misses_reachable(court, MOST_CONFIGURATIONS)),
         _ => return None,
     })
@@ -62,6 +63,13 @@ fn robots_meet(before: &[Place], made: &Move) -> bool {
         one < other && after[one] == after[other] && after[one] != after[0] && is_entered
     };
     passed.iter().any(|&one| passed.iter().any(|&other| meet(one, other)))
+}
+
+/// CHAIN-28: two robots go to where the other one was, outside the base.
+fn robots_exchange(before: &[Place], after: &[Place]) -> bool {
+    let ways = || before.iter().zip(after).filter(|(from, to)| from != to);
+    let mut outside = ways().filter(|(from, to)| **from != after[0] && **to != after[0]);
+    outside.any(|(from, to)| ways().any(|way| way == (to, from)))
 }
 
 /// CHAIN-19: some two neighbours lose contact when each of them has gone or not yet.
