@@ -287,7 +287,8 @@ impl<S: Scheme> Team for Patrol<S> {
             return Err(End::Endless);
         }
         let (most, moves) = self.still;
-        self.still = if is_explored && whole.visited <= most { (most, moves + 1) } else { (whole.visited, 0) };
+        self.still =
+            if is_explored && whole.visited <= most { (most, moves + 1) } else { (whole.visited, 0) };
         if self.still.1 > MOST_STILL * u64::from(whole.cells) {
             return Err(End::Idle);
         }
@@ -379,10 +380,9 @@ impl<S: Scheme> Watch<S> {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;
         }
-        let is_alike = || {
-            let mut then = self.floor.iter();
-            !Self::reads_crossings(team)
-                || then.any(|then| team.floor.is_alike(then, |mark| team.scheme.passes(mark)))
+        let is_alike = || match &self.floor {
+            Some(then) => team.floor.is_alike(then, |mark| team.scheme.passes(mark)),
+            None => !Self::reads_crossings(team),
         };
         if self.moves > 0 && self.bodies == team.bodies && self.claims == team.floor.claims && is_alike() {
             return true;

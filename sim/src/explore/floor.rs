@@ -208,28 +208,25 @@ impl<D: SensorData> SensorFloor<D> {
     /// alone, and these have grown alike wherever agents go from one cell to the other, through marks that they pass.
     pub(super) fn is_alike(&self, then: &Self, passes: impl Fn(Mark) -> bool) -> bool {
         let grown = |cell: Cell| {
-            let [then, now] = [then, self].map(|floor| floor.sensor(cell).unwrap_or_default().crossings());
-            now.checked_sub(then).filter(|&grown| grown == 0 || then >= D::ALIKE_FROM)
+            let (then, now) = (then.sensor(cell)?, self.sensor(cell)?);
+            let grown = now.crossings().checked_sub(then.crossings())?;
+            let is_kept = then.with_crossings(0) == now.with_crossings(0);
+            (is_kept && (grown == 0 || then.crossings() >= D::ALIKE_FROM)).then_some(grown)
         };
-        let is_kept = |cell: Cell, sensor: D| {
-            let is_crossed = |side: Side| {
-                let Some(beside) = self.sensor(cell.beyond(side)).filter(|beside| passes(beside.mark()))
-                else {
-                    return false;
-                };
-                let [here, there] = [(sensor, side), (beside, side.opposite())];
-                let shuts = |(sensor, side): (D, Side)| sensor.shut().has(Step::Cross(side));
-                self.is_open(Edge::new(cell, side)) && !(shuts(here) && shuts(there))
-            };
-            let mut crossed = Side::ALL.into_iter().filter(|&side| is_crossed(side));
-            let grown_here = grown(cell);
-            let is_as_it_was =
-                then.sensor(cell).map(|then| then.with_crossings(0)) == Some(sensor.with_crossings(0));
-            is_as_it_was
-                && grown_here.is_some()
-                && (grown_here == Some(0) || crossed.all(|side| grown(cell.beyond(side)) == grown_here))
+        let ends = |edge: Edge| {
+            [(edge.cell(), edge.side()), (edge.cell().beyond(edge.side()), edge.side().opposite())]
         };
-        self.size.area().cells().all(|cell| self.sensor(cell).is_none_or(|sensor| is_kept(cell, sensor)))
+        let is_crossed = |edge: &Edge| {
+            let sensors = ends(*edge).map(|(cell, side)| (self.sensor(cell).unwrap_or_default(), side));
+            let is_shut = sensors.iter().all(|&(sensor, side)| sensor.shut().has(Step::Cross(side)));
+            self.is_open(*edge) && !is_shut && sensors.iter().all(|(sensor, _)| passes(sensor.mark()))
+        };
+        let area = self.size.area();
+        area.cells().all(|cell| self.sensor(cell).is_none() || grown(cell).is_some())
+            && area.edges().filter(is_crossed).all(|edge| {
+                let [(one, _), (other, _)] = ends(edge);
+                grown(one) == grown(other)
+            })
     }
 
     pub(super) fn forget_changes(&mut self) {
