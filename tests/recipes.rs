@@ -110,6 +110,9 @@ fn the_action_keeps_a_page_of_each_counterexample_and_ends_as_its_command() {
     }
     let small = [TAUTLINE, "hunt", "--robots", "3", "--max-walls", "1", "--out", "out"];
     assert_eq!(ran(folder, recipe(".github/action.sh"), &small).status.code(), Some(0));
+    let without = Command::new(recipe(".github/action.sh")).arg("true").env_remove("OUT").output();
+    let said = String::from_utf8(without.expect("it runs").stderr).expect("text");
+    assert!(said.contains("OUT: is to be the folder"), "{said}");
 }
 
 /// The shell steps of the action, each as an object with its `run`.
@@ -146,7 +149,8 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
         assert!(marked.expect("chmod runs").success());
     }
     let path = format!("{}:{}", at("stand-ins").display(), std::env::var("PATH").expect("a path"));
-    let run_of = |step: &serde_json::Value, action: &str| {
+    let hunt = "tautline hunt --rule published --robots 3 --max-walls 2 --out \"$OUT\"";
+    let run_of = |step: &serde_json::Value, action: &str, asked: &str| {
         let mut command = Command::new("bash");
         command.args(["--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"].as_str().expect("text")]);
         command.current_dir(at("caller")).env("PATH", &path);
@@ -157,17 +161,16 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
             let value = value.as_str().expect("text");
             let value = value.replace("${{ runner.temp }}", at("temp").to_str().expect("text"));
             let value = value.replace("${{ github.action_ref }}", action);
-            let hunt = "tautline hunt --rule published --robots 3 --max-walls 2 --out \"$OUT\"";
-            command.env(name, value.replace("${{ inputs.run }}", hunt));
+            command.env(name, value.replace("${{ inputs.run }}", asked));
         }
         command.output().expect("bash runs")
     };
-    let run = |step: &serde_json::Value| run_of(step, "main");
-    let [released, key, build, hunt] = &shell_steps()[..] else { panic!("four steps of a shell") };
+    let run = |step: &serde_json::Value| run_of(step, "main", hunt);
+    let [released, key, build, asked] = &shell_steps()[..] else { panic!("four steps of a shell") };
 
     let takes = |action: &str| {
         write(folder, "temp/output", "");
-        let output = run_of(released, action);
+        let output = run_of(released, action, hunt);
         (output.status.success(), read(folder, "temp/output"))
     };
     let built = (true, String::new());
@@ -213,9 +216,13 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
     }
     assert_eq!(said.lines().count(), 2, "{said}");
 
-    let output = run(hunt);
+    let output = run(asked);
     assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(at("temp/counterexamples/chain-13-published-n3.html").exists());
+    // As in any step of GitHub, a line that fails is the last one, and a pipe fails with any part of it.
+    for (lines, code) in [("false\ntrue", 1), ("false | true", 1), ("true\ntrue", 0)] {
+        assert_eq!(run_of(asked, "main", lines).status.code(), Some(code), "{lines}");
+    }
 }
 
 /// A tag can be moved to another commit, a commit cannot; and a version beside it is what a person reads.
