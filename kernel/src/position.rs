@@ -28,6 +28,7 @@ mod range;
 mod signal;
 mod swarm;
 
+pub use crate::net::Propagation;
 pub use belief::{Belief, Correction, Gate, Odometry, SightError, Sighting};
 pub use bound::{Precision, best_three, bound};
 pub use closed_form::closed_form;

@@ -20,7 +20,8 @@ impl Odometry {
     /// 2 % of the way and 1° a turn. These values are ours: the paper has none.
     pub const USUAL: Self = Self { share: 0.02, turn_rad: core::f64::consts::PI / 180.0 };
 
-    /// A share of the way from 0 to 1, and an error of each turn from 0 to 90°; `None` for anything else.
+    /// A share of the way from 0 to 1, and an error of each turn from 0 to 90 **degrees**, as people write it, while
+    /// [`turn_rad`](Self::turn_rad) and all else are in radians; `None` for anything else.
     pub fn new(share: f64, turn_degrees: f64) -> Option<Self> {
         let is_error = (0.0..=1.0).contains(&share) && (0.0..=90.0).contains(&turn_degrees);
         is_error.then(|| Self { share, turn_rad: turn_degrees.to_radians() })

@@ -37,7 +37,8 @@ const MOST_M: f64 = 1e9;
 /// not told by a level. So an anchor at the robot's own place has a logarithm and a direction, and no square is lost.
 pub(super) const LEAST_M: f64 = 1e-6;
 
-/// Why there is no position. Anchors are counted from 0 in the order of the ranges.
+/// Why there is no position. Anchors are counted in the order of the ranges: from 0 in the fields, from 1 in the
+/// sentences of `Display`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
