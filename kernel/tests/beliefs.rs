@@ -3,7 +3,8 @@
 use tautline_kernel::frontier::{Condition, Rule, midpoint};
 use tautline_kernel::ground::Cell;
 use tautline_kernel::position::{
-    Belief, Correction, Gate, Odometry, Point, SightError, SymmetricMatrix, best_three,
+    Belief, Correction, Gate, Odometry, Point, Propagation, Range, Refusal, SightError, Signal,
+    SymmetricMatrix, best_three,
 };
 
 const FIX: SymmetricMatrix = SymmetricMatrix { xx: 0.04, xy: 0.01, yy: 0.09 };
@@ -50,6 +51,33 @@ fn what_says_nothing_changes_nothing() {
     }
     let mut known = Belief::known(Point::new(0.0, 0.0), 0.0);
     assert_eq!(known.corrected(Point::new(1.0, 0.0), certain, Gate::Open), Correction::Nothing);
+}
+
+#[test]
+fn a_belief_that_is_lost_refuses_each_fix_and_takes_none() {
+    let signal = Signal::new(Propagation::FREE_SPACE, 1.0).expect("a noise");
+    let ranges = [(0.0, 0.0), (9.0, 0.0), (0.0, 9.0)].map(|(x, y)| Range::new(Point::new(x, y), 5.0));
+    assert_eq!(driven().located(&ranges, &signal, Gate::Open), Ok(Correction::Taken));
+    let turned = |turn_rad| {
+        let mut belief = driven();
+        belief.turned(turn_rad, &Odometry::USUAL);
+        belief
+    };
+    let gone = |way_m| {
+        let mut belief = driven();
+        belief.driven(way_m, &Odometry::USUAL);
+        belief
+    };
+    let nowhere = Belief::known(Point::new(f64::NAN, 0.0), 0.0);
+    let no_heading = Belief::known(Point::new(0.0, 0.0), f64::NAN);
+    let endless = [turned(f64::INFINITY), gone(f64::INFINITY), gone(1e300)];
+    for mut belief in [turned(f64::NAN), gone(f64::NAN), nowhere, no_heading].into_iter().chain(endless) {
+        assert_eq!(belief.fix(&ranges, &signal), Err(Refusal::NoPlace), "{belief:?}");
+        assert_eq!(belief.located(&ranges, &signal, Gate::Open), Err(Refusal::NoPlace), "{belief:?}");
+        let before = format!("{belief:?}");
+        assert_eq!(belief.corrected(Point::new(1.0, 1.0), FIX, Gate::Open), Correction::Nothing, "{before}");
+        assert_eq!(format!("{belief:?}"), before);
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! wheels and of fixes. It is ours: Rajesh et al. 2024 take each fix for the truth (POSITION-7).
 
 use super::normal::Normal;
-use super::range::{check_residual, is_told};
+use super::range::{check_place, check_residual};
 use super::{Point, Range, Refusal, Residual, Signal, SymmetricMatrix, bound};
 
 /// How far wheels err: each drive by a share of its way, each turn by an angle, as standard deviations.
@@ -56,7 +56,7 @@ pub enum Correction {
     Taken,
     /// It is an outlier, and is left out.
     Outlier,
-    /// It says nothing: a number is not finite, or both the belief and the fix are certain.
+    /// It says nothing: a number of it or of the belief is not finite, or both are certain.
     Nothing,
 }
 
@@ -113,7 +113,13 @@ impl Belief {
         (turn, way_m)
     }
 
-    /// The robot has turned by so many radians.
+    /// Whether it can be corrected.
+    fn check(&self) -> Result<(), Refusal> {
+        if self.heading_rad.is_finite() { check_place(self.at) } else { Err(Refusal::NoPlace) }
+    }
+
+    /// The robot has turned by so many radians. A turn or a way that is infinite or no number is not known, and the
+    /// belief is lost: each fix by ranges is refused from then on, and [`Belief::known`] begins anew.
     pub fn turned(&mut self, turn_rad: f64, odometry: &Odometry) {
         if turn_rad != 0.0 {
             self.heading_rad = wrapped(self.heading_rad + turn_rad);
@@ -169,9 +175,11 @@ impl Belief {
     /// alone is off, and a belief is off by less.
     ///
     /// # Errors
-    /// [`Refusal`] as for [`locate`](super::locate).
+    /// [`Refusal`] as for [`locate`](super::locate), and [`Refusal::NoPlace`] of a belief that is
+    /// [lost](Self::turned).
     pub fn fix(&self, ranges: &[Range], signal: &Signal) -> Result<Option<Sighting>, Refusal> {
         check_residual(ranges, Residual::Decibels)?;
+        self.check()?;
         let normal = Normal::at(ranges, Residual::Decibels, self.at);
         let precision = bound(ranges.iter().map(|range| range.anchor), self.at, signal);
         Ok(precision.zip(normal.matrix.solve(normal.downhill)).map(|(known, (x, y))| Sighting {
@@ -183,7 +191,7 @@ impl Belief {
     /// Corrects the belief by the [fix](Self::fix) of ranges.
     ///
     /// # Errors
-    /// [`Refusal`] as for [`locate`](super::locate).
+    /// [`Refusal`] as for [`fix`](Self::fix).
     pub fn located(&mut self, ranges: &[Range], signal: &Signal, gate: Gate) -> Result<Correction, Refusal> {
         let fix = self.fix(ranges, signal)?;
         Ok(fix.map_or(Correction::Nothing, |fix| self.corrected(fix.at, fix.covariance, gate)))
@@ -191,7 +199,7 @@ impl Belief {
 
     /// Corrects the belief by a fix with its covariance, in m².
     pub fn corrected(&mut self, fix: Point, covariance: SymmetricMatrix, gate: Gate) -> Correction {
-        let is_fix = is_told(fix.x_m) && is_told(fix.y_m) && covariance.is_finite();
+        let is_fix = self.check().and(check_place(fix)).is_ok() && covariance.is_finite();
         let weight = self.place.and(covariance).inverse();
         let (true, Some(weight), Some(surprise)) = (is_fix, weight, self.surprise(fix, covariance)) else {
             return Correction::Nothing;

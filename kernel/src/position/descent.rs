@@ -59,8 +59,8 @@ impl Descent<'_> {
     fn step(&self, at: Point, normal: &Normal, damping: f64) -> Point {
         let (dx, dy) = match self.area.map_or([false; 2], |area| pressed(area, at, normal)) {
             [false, false] => normal.step(damping),
-            [true, false] => (0.0, normal.step_along_y(damping)),
-            [false, true] => (normal.step_along_x(damping), 0.0),
+            [true, false] => (0.0, normal.steps_alone(damping).1),
+            [false, true] => (normal.steps_alone(damping).0, 0.0),
             [true, true] => (0.0, 0.0),
         };
         let to = Point::new(at.x_m + dx, at.y_m + dy);

@@ -3,7 +3,7 @@
 
 use super::bound::{Precision, precision};
 use super::descent::{Descent, Landing};
-use super::range::{LEAST_M, check_residual, count, is_told};
+use super::range::{LEAST_M, check_place, check_residual, count};
 use super::{Area, Layout, Point, Range, Refusal, Residual, Signal};
 
 /// Warnings about an estimate.
@@ -161,9 +161,7 @@ pub fn locate_from(
     area: Option<Area>,
 ) -> Result<Estimate, Refusal> {
     check_residual(ranges, residual)?;
-    if ![from.x_m, from.y_m].into_iter().all(is_told) {
-        return Err(Refusal::NoPlace);
-    }
+    check_place(from)?;
     let from = area.map_or(from, |area| area.nearest(from));
     let descent = Descent { ranges, residual, area, last_m: LAST_STEP * Layout::of(ranges).spread_m[0] };
     let landing = descent.from(from, descent.normal(from), |_| false);

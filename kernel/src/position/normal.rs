@@ -66,14 +66,10 @@ impl Normal {
         step.or_else(|| by(self.matrix, LEAST_DAMPING)).unwrap_or_default()
     }
 
-    /// The step along x alone, as for a step in both directions.
-    pub(super) fn step_along_x(&self, damping: f64) -> f64 {
-        along(self.downhill.0, self.curvature.xx, self.matrix.xx, damping)
-    }
-
-    /// The step along y alone.
-    pub(super) fn step_along_y(&self, damping: f64) -> f64 {
-        along(self.downhill.1, self.curvature.yy, self.matrix.yy, damping)
+    /// The step along x alone, as for a step in both directions, and that along y alone.
+    pub(super) fn steps_alone(&self, damping: f64) -> (f64, f64) {
+        let Self { matrix, curvature, downhill: (x, y), .. } = *self;
+        (along(x, curvature.xx, matrix.xx, damping), along(y, curvature.yy, matrix.yy, damping))
     }
 
     /// About how small the sum becomes with the next step.

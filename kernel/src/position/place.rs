@@ -61,10 +61,8 @@ impl Area {
 
     /// The place of the rectangle that is nearest to `point`.
     pub fn nearest(self, point: Point) -> Point {
-        Point {
-            x_m: point.x_m.clamp(self.least.x_m, self.greatest.x_m),
-            y_m: point.y_m.clamp(self.least.y_m, self.greatest.y_m),
-        }
+        let Self { least, greatest } = self;
+        Point::new(point.x_m.clamp(least.x_m, greatest.x_m), point.y_m.clamp(least.y_m, greatest.y_m))
     }
 }
 

@@ -70,7 +70,8 @@ pub enum Refusal {
     },
     /// There is no particle.
     NoParticle,
-    /// The place from which steps are to begin is infinite or no number, or is above a million kilometres away.
+    /// The place from which steps are to begin is infinite or no number, or is above a million kilometres away; or the
+    /// heading of a belief is infinite or no number.
     NoPlace,
 }
 
@@ -149,8 +150,14 @@ pub(super) fn check_residual(ranges: &[Range], residual: Residual) -> Result<(),
     Ok(())
 }
 
+/// Whether steps can begin from `place`.
+pub(super) fn check_place(place: Point) -> Result<(), Refusal> {
+    let is_place = is_told(place.x_m) && is_told(place.y_m);
+    if is_place { Ok(()) } else { Err(Refusal::NoPlace) }
+}
+
 /// Whether a coordinate or a distance is a number whose square is one, too.
-pub(super) fn is_told(number: f64) -> bool {
+fn is_told(number: f64) -> bool {
     number.abs() <= MOST_M
 }
 
