@@ -161,7 +161,7 @@ enum TautlineStatus
    */
   TAUTLINE_STATUS_DAMAGED_OTHER_WORLD = -17,
   /*
-   There is no such demand, or nothing breaks it with its tolerance.
+   There is no such demand, or positions say nothing of it with its tolerance.
    */
   TAUTLINE_STATUS_BAD_DEMAND = -18,
 };

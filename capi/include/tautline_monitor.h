@@ -101,7 +101,7 @@ typedef struct {
   uint32_t length_mm;
   /*
    How far off a distance, or a position in cells, may be: less than the
-   least distance, or half the width of a cell.
+   range, the least distance, or half the width of a cell.
    */
   uint32_t tolerance_mm;
   /*

@@ -5,7 +5,8 @@ use core::mem::MaybeUninit;
 use core::slice;
 
 use tautline_monitor::{
-    AnyDemand, Apart, Breach, Cells, Connectivity, Doubt, Monitor, Neighbours, Place, Robot, Verdict,
+    AnyDemand, Apart, Breach, Cells, Connectivity, Doubt, Monitor, Neighbours, Place, Robot, SetupError,
+    Verdict,
 };
 
 use crate::caller::{read, status, write};
@@ -53,7 +54,7 @@ pub struct TautlineDemand {
     /// The range, the least distance, or the width of a cell, in millimetres.
     pub length_mm: u32,
     /// How far off a distance, or a position in cells, may be: less than the
-    /// least distance, or half the width of a cell.
+    /// range, the least distance, or half the width of a cell.
     pub tolerance_mm: u32,
     /// The most robots in a cell.
     pub most: u32,
@@ -98,7 +99,7 @@ pub struct TautlineMonitor {
 impl TautlineDemand {
     const fn demand(&self) -> Option<AnyDemand> {
         let &Self { kind, length_mm, tolerance_mm, most, .. } = self;
-        let demand = match kind {
+        Some(match kind {
             TAUTLINE_DEMAND_NEIGHBOURS => {
                 AnyDemand::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm })
             }
@@ -111,8 +112,7 @@ impl TautlineDemand {
                 AnyDemand::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm })
             }
             _ => return None,
-        };
-        if demand.is_blind() { None } else { Some(demand) }
+        })
     }
 }
 
@@ -182,9 +182,6 @@ pub unsafe extern "C" fn tautline_monitor_begin(
         }
         // SAFETY: the caller's promise.
         let demand = unsafe { read(demand) }?.demand().ok_or(TautlineStatus::BadDemand)?;
-        if count == 0 {
-            return Err(TautlineStatus::TooFewRobots);
-        }
         if count > isize::MAX as usize / size_of::<Robot>() {
             return Err(TautlineStatus::TooManyRobots);
         }
@@ -197,10 +194,14 @@ pub unsafe extern "C" fn tautline_monitor_begin(
         }
         // SAFETY: the caller's promise, for as long as the monitor is used; every robot is written.
         let robots = unsafe { slice::from_raw_parts_mut(robots, count) };
+        let state = Monitor::new(demand, gap_us, robots).map_err(|error| match error {
+            SetupError::Blind => TautlineStatus::BadDemand,
+            SetupError::NoRobots => TautlineStatus::TooFewRobots,
+        })?;
         // SAFETY: the caller's promise; the memory need not hold anything yet.
         let memory = unsafe { &raw mut (*monitor).memory };
         // SAFETY: a state fits in size and alignment.
-        unsafe { memory.cast::<State>().write(Monitor::new(demand, gap_us, robots)) };
+        unsafe { memory.cast::<State>().write(state) };
         // SAFETY: the caller's promise.
         let mark = unsafe { &raw mut (*monitor).mark };
         // SAFETY: a number fits where it is declared.

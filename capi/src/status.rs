@@ -48,7 +48,7 @@ pub enum TautlineStatus {
     DamagedOtherStep = -16,
     /// A message contradicts what the team knows.
     DamagedOtherWorld = -17,
-    /// There is no such demand, or nothing breaks it with its tolerance.
+    /// There is no such demand, or positions say nothing of it with its tolerance.
     BadDemand = -18,
 }
 
@@ -115,7 +115,7 @@ impl TautlineStatus {
             }
             Self::BadDemand => {
                 c"no such demand; give one of TAUTLINE_DEMAND_..., and a tolerance below its \
-                  least distance, or half its cells' width"
+                  range, its least distance, or half its cells' width"
             }
         }
     }

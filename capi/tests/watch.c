@@ -35,6 +35,7 @@ int main(void) {
     static TautlineRobot robots[ROBOTS];
     TautlineVerdict verdict;
     TautlineDemand unknown = {9, 1, 0, 0, 0, 0, 0}, flat = {TAUTLINE_DEMAND_CELLS, 0, 0, 1, 0, 0, 0};
+    TautlineDemand far = {TAUTLINE_DEMAND_NEIGHBOURS, 2549, 2549, 0, 0, 0, 0}, apart = {TAUTLINE_DEMAND_JOINED, 2549, 2549, 0, 0, 0, 0};
     TautlineDemand near = {TAUTLINE_DEMAND_APART, 3000, 3000, 0, 0, 0, 0}, wide = {TAUTLINE_DEMAND_CELLS, 1000, 500, 1, 0, 0, 0};
 
     /* What is asked too early, of nobody or for nothing is refused. */
@@ -42,6 +43,8 @@ int main(void) {
     if (tautline_monitor_begin(&monitor, NULL, GAP_US, robots, ROBOTS) != TAUTLINE_STATUS_NULL_POINTER) return 2;
     if (tautline_monitor_begin(&monitor, &unknown, GAP_US, robots, ROBOTS) != TAUTLINE_STATUS_BAD_DEMAND) return 2;
     if (tautline_monitor_begin(&monitor, &flat, GAP_US, robots, ROBOTS) != TAUTLINE_STATUS_BAD_DEMAND) return 2;
+    if (tautline_monitor_begin(&monitor, &far, GAP_US, robots, ROBOTS) != TAUTLINE_STATUS_BAD_DEMAND) return 2;
+    if (tautline_monitor_begin(&monitor, &apart, GAP_US, robots, ROBOTS) != TAUTLINE_STATUS_BAD_DEMAND) return 2;
     if (tautline_monitor_begin(&monitor, &near, GAP_US, robots, ROBOTS) != TAUTLINE_STATUS_BAD_DEMAND) return 2;
     if (tautline_monitor_begin(&monitor, &wide, GAP_US, robots, ROBOTS) != TAUTLINE_STATUS_BAD_DEMAND) return 2;
     if (tautline_monitor_begin(&monitor, &WATCHED[0].demand, GAP_US, robots, 0) != TAUTLINE_STATUS_TOO_FEW_ROBOTS) return 2;

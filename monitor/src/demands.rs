@@ -18,7 +18,7 @@ fn between(one: (usize, Place), other: (usize, Place), allowed: u32) -> Breach {
 pub struct Neighbours {
     /// The range.
     pub range_mm: u32,
-    /// How far off the distance may be.
+    /// How far off the distance may be: less than the range, or [it says nothing](Demand::is_blind).
     pub tolerance_mm: u32,
 }
 
@@ -29,6 +29,10 @@ impl Demand for Neighbours {
         let [one, other] = pairs.find(|[one, other]| one.1.is_beyond(other.1, most))?;
         Some(between(one, other, self.range_mm))
     }
+
+    fn is_blind(&self) -> bool {
+        self.tolerance_mm >= self.range_mm
+    }
 }
 
 /// KIT-12, and of two robots KIT-1 and KIT-2, which speak of no more: robots hear each other directly or over others.
@@ -38,7 +42,7 @@ impl Demand for Neighbours {
 pub struct Connectivity {
     /// The range.
     pub range_mm: u32,
-    /// How far off the distance may be.
+    /// How far off the distance may be: less than the range, or [it says nothing](Demand::is_blind).
     pub tolerance_mm: u32,
 }
 
@@ -65,6 +69,10 @@ impl Demand for Connectivity {
         let (one, other) = if nearest.0 < left.0 { (nearest, left) } else { (left, nearest) };
         Some(between(one, other, self.range_mm))
     }
+
+    fn is_blind(&self) -> bool {
+        self.tolerance_mm >= self.range_mm
+    }
 }
 
 /// KIT-3: robots that have left their starts are never nearer to each other than 3 m. The start of a robot is where it
@@ -74,7 +82,7 @@ impl Demand for Connectivity {
 pub struct Apart {
     /// The least distance.
     pub least_mm: u32,
-    /// How far off the distance may be: less than the least one, or [nothing breaks it](AnyDemand::is_blind).
+    /// How far off the distance may be: less than the least one, or [nothing breaks it](Demand::is_blind).
     pub tolerance_mm: u32,
 }
 
@@ -88,6 +96,10 @@ impl Demand for Apart {
         let [one, other] = track.pairs().find(is_near)?;
         Some(between(one, other, self.least_mm))
     }
+
+    fn is_blind(&self) -> bool {
+        self.tolerance_mm >= self.least_mm
+    }
 }
 
 /// CHAIN-2, with 2 in a cell at most and the base left out, and FRONTIER-2 and PACK-2, with 1: not more robots are in
@@ -100,7 +112,7 @@ pub struct Cells {
     pub most: u32,
     /// The column and the row of a cell in which any number may be.
     pub base: Option<[i32; 2]>,
-    /// How far off a position may be: less than half a cell, or [nothing breaks it](AnyDemand::is_blind).
+    /// How far off a position may be: less than half a cell, or [nothing breaks it](Demand::is_blind).
     pub tolerance_mm: u32,
 }
 
@@ -129,6 +141,10 @@ impl Demand for Cells {
         };
         cells().find_map(counted)
     }
+
+    fn is_blind(&self) -> bool {
+        self.tolerance_mm >= self.cell_mm.div_ceil(2)
+    }
 }
 
 /// A demand that is chosen when the program runs.
@@ -144,17 +160,6 @@ pub enum AnyDemand {
     Cells(Cells),
 }
 
-impl AnyDemand {
-    /// Whether its tolerance is so large that nothing breaks it.
-    pub const fn is_blind(&self) -> bool {
-        match self {
-            Self::Neighbours(_) | Self::Connectivity(_) => false,
-            Self::Apart(Apart { least_mm, tolerance_mm }) => *tolerance_mm >= *least_mm,
-            Self::Cells(Cells { cell_mm, tolerance_mm, .. }) => *tolerance_mm >= cell_mm.div_ceil(2),
-        }
-    }
-}
-
 impl Demand for AnyDemand {
     fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         match self {
@@ -162,6 +167,15 @@ impl Demand for AnyDemand {
             Self::Connectivity(demand) => demand.breach(track),
             Self::Apart(demand) => demand.breach(track),
             Self::Cells(demand) => demand.breach(track),
+        }
+    }
+
+    fn is_blind(&self) -> bool {
+        match self {
+            Self::Neighbours(demand) => demand.is_blind(),
+            Self::Connectivity(demand) => demand.is_blind(),
+            Self::Apart(demand) => demand.is_blind(),
+            Self::Cells(demand) => demand.is_blind(),
         }
     }
 }

@@ -12,12 +12,13 @@
 //! use tautline_monitor::{Monitor, Neighbours, Place, Robot, Verdict};
 //!
 //! let range = Neighbours { range_mm: 2_550, tolerance_mm: 50 };
-//! let mut chain = Monitor::new(range, 1_000_000, [Robot::UNHEARD; 3]);
+//! let mut chain = Monitor::new(range, 1_000_000, [Robot::UNHEARD; 3])?;
 //! chain.hear(0, 0, 0, Place::new(0, 0));
 //! chain.hear(0, 1, 0, Place::new(2_000, 0));
 //! assert_eq!(chain.hear(0, 2, 0, Place::new(4_000, 0)), Verdict::Kept);
 //! // Half a second later, by the watch of the one who looks and by the robot's stamp.
 //! assert!(matches!(chain.hear(500_000, 2, 500_000, Place::new(4_700, 0)), Verdict::Broken(_)));
+//! # Ok::<(), tautline_monitor::SetupError>(())
 //! ```
 #![no_std]
 
@@ -201,7 +202,36 @@ impl<R: AsRef<[Robot]>> Track<R> {
 pub trait Demand {
     /// The first breach that leaves no doubt, by robots that were heard within the gap.
     fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach>;
+
+    /// Whether its tolerance is as long as its range or its least distance, or as half the width of its cells. Then
+    /// positions say nothing of it.
+    fn is_blind(&self) -> bool {
+        false
+    }
 }
+
+/// The reason why there is no monitor.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SetupError {
+    /// The demand is [blind](Demand::is_blind).
+    Blind,
+    /// There is no robot.
+    NoRobots,
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Blind => {
+                "with this tolerance positions say nothing of the demand: give one below its range or its least \
+                 distance, or below half the width of its cells"
+            }
+            Self::NoRobots => "there are no robots: give at least one",
+        })
+    }
+}
+
+impl core::error::Error for SetupError {}
 
 /// A demand, and the robots that it is made of: `R` is their memory, as `[Robot; 4]`, `Vec<Robot>` or `&mut [Robot]`.
 #[derive(Clone, Copy, Debug)]
@@ -213,8 +243,17 @@ pub struct Monitor<D, R> {
 impl<D: Demand, R: AsMut<[Robot]>> Monitor<D, R> {
     /// A monitor of robots that were not heard, whose memory is `robots`, each one [`Robot::UNHEARD`]. A position that
     /// is older than `gap_us` microseconds is no longer believed.
-    pub const fn new(demand: D, gap_us: u64, robots: R) -> Self {
-        Self { demand, track: Track { robots, gap_us, now_us: 0 } }
+    ///
+    /// # Errors
+    /// [`SetupError`] if the clause would be kept wherever robots are.
+    pub fn new(demand: D, gap_us: u64, mut robots: R) -> Result<Self, SetupError> {
+        if demand.is_blind() {
+            return Err(SetupError::Blind);
+        }
+        if robots.as_mut().is_empty() {
+            return Err(SetupError::NoRobots);
+        }
+        Ok(Self { demand, track: Track { robots, gap_us, now_us: 0 } })
     }
 
     /// Takes the position of `robot` at `at_us` microseconds, and judges all positions of now, as [`Monitor::at`] does.

@@ -7,7 +7,8 @@
 )]
 
 use tautline_monitor::{
-    Apart, Cells, Connectivity, Demand, Doubt, Monitor, Neighbours, Own, Place, Robot, Track, Verdict,
+    AnyDemand, Apart, Cells, Connectivity, Demand, Doubt, Monitor, Neighbours, Own, Place, Robot, SetupError,
+    Track, Verdict,
 };
 
 const ROBOTS: usize = 4;
@@ -171,7 +172,7 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
 
 /// The verdicts of a monitor that hears the log.
 fn monitored<const N: usize>(demand: impl Demand, gap_us: u64, log: &[Sample]) -> Vec<Option<bool>> {
-    let mut monitor = Monitor::new(demand, gap_us, [Robot::UNHEARD; N]);
+    let mut monitor = Monitor::new(demand, gap_us, [Robot::UNHEARD; N]).expect("a monitor");
     let hear = |&(now_us, robot, at_us, [x_mm, y_mm]): &Sample| match monitor.hear(
         now_us,
         robot,
@@ -298,8 +299,31 @@ fn each_wrong_monitor_is_found() {
 }
 
 #[test]
+fn what_nothing_would_break_is_refused() {
+    let refused = |demand: AnyDemand, robots: usize| {
+        Monitor::new(demand, GAP_US, vec![Robot::UNHEARD; robots]).err().map(|error| error.to_string())
+    };
+    let demands = |off: u32| {
+        let at_most = |length: u32| length - off;
+        [
+            AnyDemand::Neighbours(Neighbours { tolerance_mm: at_most(2_549), ..RANGE }),
+            AnyDemand::Connectivity(Connectivity { tolerance_mm: at_most(2_549), ..LINKS }),
+            AnyDemand::Apart(Apart { tolerance_mm: at_most(1_000), ..APART }),
+            AnyDemand::Cells(Cells { tolerance_mm: at_most(500), ..PAIRS }),
+        ]
+    };
+    for (blind, seeing) in demands(0).into_iter().zip(demands(1)) {
+        assert!(refused(blind, 2).expect("refused").starts_with("with this tolerance"), "{blind:?}");
+        assert_eq!(refused(seeing, 2), None, "{seeing:?}");
+        assert_eq!(refused(seeing, 0).as_deref(), Some("there are no robots: give at least one"));
+    }
+    let endless = Neighbours { tolerance_mm: u32::MAX, ..RANGE };
+    assert!(matches!(Monitor::new(endless, GAP_US, [Robot::UNHEARD; 2]), Err(SetupError::Blind)));
+}
+
+#[test]
 fn what_cannot_be_taken_is_said() {
-    let mut monitor = Monitor::new(LINKS, GAP_US, [Robot::UNHEARD; 2]);
+    let mut monitor = Monitor::new(LINKS, GAP_US, [Robot::UNHEARD; 2]).expect("a monitor");
     let mut hear =
         |robot, at_us: u64, x_mm| monitor.hear(at_us.min(GAP_US + 20), robot, at_us, Place::new(x_mm, 0));
     assert_eq!(hear(0, 10, 0), Verdict::Unknown(Doubt::Silent(1)));
@@ -318,7 +342,7 @@ fn what_cannot_be_taken_is_said() {
 
 #[test]
 fn a_position_that_is_not_taken_hides_no_breach() {
-    let mut chain = Monitor::new(RANGE, GAP_US, [Robot::UNHEARD; 2]);
+    let mut chain = Monitor::new(RANGE, GAP_US, [Robot::UNHEARD; 2]).expect("a monitor");
     chain.hear(10, 0, 10, Place::new(0, 0));
     let broken = chain.hear(10, 1, 10, Place::new(5_000, 0));
     assert!(matches!(broken, Verdict::Broken(_)));
@@ -331,7 +355,7 @@ fn a_position_that_is_not_taken_hides_no_breach() {
 
 #[test]
 fn where_no_robot_may_be_one_is_a_breach() {
-    let mut cell = Monitor::new(Cells { most: 0, ..PAIRS }, GAP_US, [Robot::UNHEARD; 2]);
+    let mut cell = Monitor::new(Cells { most: 0, ..PAIRS }, GAP_US, [Robot::UNHEARD; 2]).expect("a monitor");
     cell.hear(0, 0, 0, Place::new(500, 500));
     let Verdict::Broken(breach) = cell.hear(0, 1, 0, Place::new(2_500, 500)) else {
         panic!("a robot is in a cell")
@@ -341,7 +365,7 @@ fn where_no_robot_may_be_one_is_a_breach() {
 
 #[test]
 fn a_breach_names_its_robots_and_what_was_measured() {
-    let mut chain = Monitor::new(RANGE, GAP_US, [Robot::UNHEARD; 3]);
+    let mut chain = Monitor::new(RANGE, GAP_US, [Robot::UNHEARD; 3]).expect("a monitor");
     for (robot, x_mm) in [(0, 0), (1, 2_000)] {
         chain.hear(0, robot, 0, Place::new(x_mm, 0));
     }
@@ -370,7 +394,7 @@ fn a_monitor_takes_the_bytes_that_its_page_says() {
 #[ignore = "it measures, and fails never"]
 fn nanoseconds_a_position() {
     fn measured<const N: usize>(name: &str, demand: impl Demand) {
-        let mut monitor = Monitor::new(demand, GAP_US, [Robot::UNHEARD; N]);
+        let mut monitor = Monitor::new(demand, GAP_US, [Robot::UNHEARD; N]).expect("a monitor");
         let (rounds, start) = (2_000_000_u32, std::time::Instant::now());
         let mut kept = 0_u32;
         for number in 0..rounds {

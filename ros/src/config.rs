@@ -255,12 +255,14 @@ impl ClauseTable {
         let length_mm = length.ok_or_else(|| wrong(at, format!("{id} needs its {}", id.length())))?;
         let tolerance_mm = millimetres(&self.tolerance_m, "tolerance_m", 0)?;
         let (below, of) = match id.length() {
-            "cell_m" => (length_mm.div_ceil(2), "half its cell_m"),
-            "least_m" => (length_mm, "its least_m"),
-            _ => (u32::MAX, "any"),
+            "cell_m" => (length_mm.div_ceil(2), "half its"),
+            _ => (length_mm, "its"),
         };
         if tolerance_mm >= below {
-            let why = format!("with this tolerance nothing breaks {id}: give a tolerance_m below {of}");
+            let why = format!(
+                "with this tolerance positions say nothing of {id}: give a tolerance_m below {of} {}",
+                id.length()
+            );
             return Err(wrong(self.tolerance_m.span().start, why));
         }
         if let Some(base) = self.base.as_ref().filter(|_| id != Id::Chain2) {

@@ -20,6 +20,7 @@ use std::io;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use tautline_monitor::SetupError;
 
 /// How often all is published without news.
 const EACH: Duration = Duration::from_secs(1);
@@ -47,6 +48,8 @@ pub enum NodeError {
     },
     /// The DDS library has no network.
     Dds(String),
+    /// A clause cannot be watched.
+    Setup(SetupError),
 }
 
 impl Display for NodeError {
@@ -58,6 +61,7 @@ impl Display for NodeError {
                  that has it (`ss -ulpn` names it), or choose another --domain"
             ),
             Self::Dds(why) => write!(f, "the network cannot be opened: {why}"),
+            Self::Setup(why) => write!(f, "a clause cannot be watched: {why}"),
         }
     }
 }
@@ -215,7 +219,7 @@ impl Voice<'_> {
 /// Watches robots until `stop` is set.
 ///
 /// # Errors
-/// There is no network.
+/// There is no network, or a clause would be kept wherever robots are.
 pub fn run(config: Config, (context, mut node): (Context, Node), stop: &AtomicBool) -> Result<(), NodeError> {
     let subscribed = config.robots.iter().map(|robot| Poses::subscribe(&mut node, robot));
     let mut robots = subscribed.collect::<Result<Vec<_>, _>>()?;
@@ -228,7 +232,7 @@ pub fn run(config: Config, (context, mut node): (Context, Node), stop: &AtomicBo
     for (robot, poses) in robots.iter_mut().enumerate() {
         poll.registry().register(poses.source(), Token(robot), Interest::READABLE).map_err(dds)?;
     }
-    let mut watch = Watch::new(config);
+    let mut watch = Watch::new(config).map_err(NodeError::Setup)?;
     let (mut events, mut due) = (Events::with_capacity(64), Instant::now());
     while !stop.load(Ordering::Relaxed) {
         match poll.poll(&mut events, Some(PATIENCE)) {

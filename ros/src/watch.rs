@@ -6,7 +6,8 @@ use super::messages::{Header, Point, Time};
 use super::tell;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use tautline_monitor::{
-    AnyDemand, Apart, Breach, Cells, Connectivity, Doubt, Monitor, Neighbours, Place, Robot, Verdict,
+    AnyDemand, Apart, Breach, Cells, Connectivity, Doubt, Monitor, Neighbours, Place, Robot, SetupError,
+    Verdict,
 };
 
 /// How far a stamp may be ahead of this machine's clock, at most: no farther than the gap. One that is farther ahead
@@ -17,7 +18,7 @@ const MOST_AHEAD_US: u64 = 1_000_000;
 const EACH: Duration = Duration::from_secs(10);
 
 /// The monitor of a clause.
-fn monitor(clause: &Clause, gap: Duration) -> Monitor<AnyDemand, Vec<Robot>> {
+fn monitor(clause: &Clause, gap: Duration) -> Result<Monitor<AnyDemand, Vec<Robot>>, SetupError> {
     let &Clause { id, length_mm, tolerance_mm, base, .. } = clause;
     let cells = |most| AnyDemand::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm });
     let demand = match id {
@@ -90,19 +91,26 @@ fn millimetres(metres: f64) -> Option<i32> {
 
 impl Watch {
     /// The watch that a configuration asks for. It has heard nobody.
-    pub fn new(config: Config) -> Self {
+    ///
+    /// # Errors
+    /// [`SetupError`] of a clause that would be kept wherever robots are.
+    pub fn new(config: Config) -> Result<Self, SetupError> {
         let watched = |clause: &Clause| {
-            let (clause, monitor, status) =
-                (clause.clone(), monitor(clause, config.gap), Status::Silent(clause.robots[0]));
-            WatchedClause { clause, monitor, status, moment: Time::default(), told: status }
+            let (monitor, status) = (monitor(clause, config.gap)?, Status::Silent(clause.robots[0]));
+            Ok(WatchedClause {
+                clause: clause.clone(),
+                monitor,
+                status,
+                moment: Time::default(),
+                told: status,
+            })
         };
-        let clauses = config.clauses.iter().map(watched).collect();
-        Self {
+        Ok(Self {
             frame: config.frame.clone(),
             heard: vec![Reception::default(); config.robots.len()],
-            clauses,
+            clauses: config.clauses.iter().map(watched).collect::<Result<_, _>>()?,
             config,
-        }
+        })
     }
 
     /// Takes a position of `robot`, or says on stderr why not.

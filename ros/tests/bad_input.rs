@@ -42,8 +42,9 @@ fn a_clause_that_cannot_be_watched_is_refused_with_its_line_and_what_would_be_ri
         (
             "clause = 'KIT-3'\nleast_m = 0.1",
             ":4:",
-            "nothing breaks KIT-3: give a tolerance_m below its least_m",
+            "positions say nothing of KIT-3: give a tolerance_m below its least_m",
         ),
+        ("clause = 'CHAIN-3'\nrange_m = 0.1", ":4:", "give a tolerance_m below its range_m"),
         ("clause = 'CHAIN-2'\ncell_m = 0.2", ":4:", "give a tolerance_m below half its cell_m"),
     ] {
         let said = refused(&format!("{head}{clause}"));

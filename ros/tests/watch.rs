@@ -12,7 +12,7 @@ const GAP: Duration = Duration::from_millis(500);
 fn watch(robots: usize, clause: &str) -> Watch {
     let robots: Vec<_> = (0..robots).map(|robot| format!("{{ name = 'r{robot}' }}")).collect();
     let text = format!("gap_s = 0.5\nrobots = [{}]\nclauses = [{{ {clause} }}]", robots.join(", "));
-    Watch::new(Config::parse(&text).expect("a configuration"))
+    Watch::new(Config::parse(&text).expect("a configuration")).expect("a watch")
 }
 
 /// The only diagnostic.
