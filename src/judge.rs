@@ -14,7 +14,7 @@ use tautline_logs::{
 use tautline_proofs::ledger;
 
 use self::ground::{LogMap, MapArgs};
-use self::report::LogReport;
+use self::report::{LogReport, metres};
 use super::exit::Exit;
 use super::options::{ForceArgs, Format, FormatArgs, refuse_needless};
 use super::output::Output;
@@ -230,24 +230,30 @@ impl Judge {
         /// Metres of KIT: within them robots hear each other, and nearer than that they never come.
         const KIT_RANGE: f64 = 10.0;
         const KIT_LEAST: f64 = 3.0;
-        let range = |default: f64| milli(self.range.unwrap_or(default));
+        let below = |length_mm: u32, option: &str| {
+            if limits.tolerance_mm < length_mm {
+                return Ok(length_mm);
+            }
+            let what =
+                format!("{id} speaks of distances, and with this tolerance a log says nothing of them");
+            Err(Diagnostic::usage(what, format!("give a --tolerance below {option}")))
+        };
+        let range = |default: f64| {
+            let range_mm = milli(self.range.unwrap_or(default));
+            below(range_mm, &format!("the range of {} m", metres(range_mm.into())))
+        };
         Ok(match kind {
-            Kind::Neighbours => Demand::Neighbours { range_mm: range(6.5_f64.sqrt() * given.cell_m()) },
+            Kind::Neighbours => Demand::Neighbours { range_mm: range(6.5_f64.sqrt() * given.cell_m())? },
             Kind::Pair if tracks.count() != 2 => {
                 let what = format!("{id} speaks of two robots, and the log has {}", tracks.count());
                 return Err(Diagnostic::in_file(&self.log, what, "name KIT-12, or two robots with --names"));
             }
-            Kind::Pair => Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Group::All },
+            Kind::Pair => Demand::Joined { range_mm: range(KIT_RANGE)?, of: tautline_logs::Group::All },
             Kind::Joined => {
-                Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Group::JoinedAtStart }
+                Demand::Joined { range_mm: range(KIT_RANGE)?, of: tautline_logs::Group::JoinedAtStart }
             }
             Kind::Apart => {
-                let least_mm = milli(self.least.unwrap_or(KIT_LEAST));
-                if limits.tolerance_mm >= least_mm {
-                    let what = format!("with this tolerance no distance breaks {id}");
-                    return Err(Diagnostic::usage(what, "give a --tolerance below --least"));
-                }
-                Demand::Apart { least_mm }
+                Demand::Apart { least_mm: below(milli(self.least.unwrap_or(KIT_LEAST)), "--least")? }
             }
             Kind::Crowd { most, is_base_free } => {
                 given.check_cells(id, limits)?;

@@ -143,6 +143,8 @@ fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
         ("field.csv --clauses PACK-2 --map open:9x9 --base 1,1", "--base has no effect"),
         ("field.csv --clauses CHAIN-2 --tolerance 0.5", "give a --tolerance below half a --cell"),
         ("field.csv --clauses KIT-3 --tolerance 3", "give a --tolerance below --least"),
+        ("field.csv --clauses CHAIN-3 --tolerance 100000", "give a --tolerance below the range of 2.549 m"),
+        ("field.csv --clauses KIT-12 --range 3 --tolerance 3", "give a --tolerance below the range of 3 m"),
         ("field.csv --clauses CHAIN-2 --map field.csv", "field.csv:1"),
         ("field.csv --clauses PACK-2 --base 1,1", "--base has no effect"),
         ("field.csv --clauses CHAIN-2 --map open:9x9 --base 9,9", "the base 9,9 is outside"),

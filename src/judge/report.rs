@@ -90,7 +90,7 @@ const ACROSS: f64 = 40.0;
 /// The stamps that the page of a breach shows.
 const STAMPS: usize = 12;
 
-fn metres(mm: f64) -> String {
+pub(super) fn metres(mm: f64) -> String {
     format!("{:.3}", mm / 1e3).trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
