@@ -192,6 +192,20 @@ fn robots_at_one_point_of_a_border_are_not_said_to_be_in_two_cells() {
     says(&told, &["CHAIN-2: unknown: at 0 s robots 1 (a) and 2 (b) and 3 (c) may be in the cell (0,0)"]);
 }
 
+/// Two robots that share a name, or one that is told of twice: which line stands first says nothing.
+#[test]
+fn a_robot_at_several_places_at_one_stamp_keeps_no_clause_in_any_order() {
+    let folder = &folder();
+    for [first, second] in [["50", "1"], ["1", "50"]] {
+        let rows = format!("0,b,{first},0\n0,b,{second},0\n0.25,a,0,0\n0.25,b,1,0\n");
+        write(folder, "log.csv", "time,robot,x,y\n0,a,0,0\n".to_owned() + &rows);
+        let (told, _) = judged(folder, "log.csv --clauses CHAIN-3,KIT-1,PACK-2", 3);
+        let why = "unknown: robot 2 (b) is at several places at 0 s, farther apart than --tolerance (line 4)";
+        assert_eq!(told.matches(why).count(), 3, "{told}");
+        says(&told, &["2 × not taken: a position of a robot that is somewhere else at the same stamp"]);
+    }
+}
+
 /// Without a map its rows are counted northwards, as those of the log are.
 #[test]
 fn a_base_needs_no_map() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use super::{Limits, Tracks};
+use super::{Limits, Sample, Tracks};
 
 /// The grid of cells under the positions. Columns are counted along the first axis, rows along the second one.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -81,7 +81,7 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
     };
     let (mut all, mut milli, mut cells) = (0_usize, 0_usize, BTreeSet::new());
     for track in &tracks.robots {
-        let mut before: Option<([i32; 2], i64)> = None;
+        let mut before: Option<([i32; 2], &Sample)> = None;
         for sample in track {
             let place = [sample.x_mm, sample.y_mm].map(f64::from);
             if grid.touched(place, limits.tolerance_mm).all(|cell| !ground.is_free(cell)) {
@@ -94,8 +94,8 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
                 cells.insert(thousandth);
             }
             let cell = grid.surely(place, limits.tolerance_mm);
-            if let (Some((from, at_us)), Some(to)) = (before, cell) {
-                let is_soon = sample.at_us.abs_diff(at_us) <= limits.gap_us;
+            if let (Some((from, last)), Some(to)) = (before, cell) {
+                let is_soon = tracks.goes_straight(last, sample);
                 let apart: u32 = (0..2).map(|axis| i32::abs_diff(from[axis], to[axis])).sum();
                 let is_free = ground.is_free(from) && ground.is_free(to);
                 if is_soon && apart == 1 && is_free && !ground.is_open(from, to) {
@@ -103,7 +103,7 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
                 }
             }
             // At a border it may be in either cell: the last sure one counts.
-            before = cell.map(|cell| (cell, sample.at_us)).or(before);
+            before = cell.map(|cell| (cell, sample)).or(before);
         }
     }
     let is_off = found.off.is_some_and(|(off, _)| off as usize * 2 > all);
@@ -153,8 +153,7 @@ pub fn visits(
     let ([mut surely, mut maybe], mut comparisons) = ([BTreeSet::new(), BTreeSet::new()], 0);
     for track in &tracks.robots {
         for (sample, next) in track.iter().zip(track.iter().skip(1).chain(track.last())) {
-            let is_straight = next.at_us.abs_diff(sample.at_us) <= limits.gap_us;
-            let next = if is_straight { next } else { sample };
+            let next = if tracks.goes_straight(sample, next) { next } else { sample };
             let ends = [sample, next].map(|end| [end.x_mm, end.y_mm].map(f64::from));
             let [one, other] = ends.map(|end| grid.around(end, tolerance));
             let [columns, rows] = [0, 1].map(|axis| {

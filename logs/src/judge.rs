@@ -117,6 +117,17 @@ pub enum Doubt {
     Astray(u32),
     /// More than half of the positions were not taken.
     Refused,
+    /// A robot is at several places at one stamp.
+    Contradiction {
+        /// The robot, from 0.
+        robot: u32,
+        /// The stamp.
+        at_us: i64,
+        /// The line or message of the log that is somewhere else than one before it.
+        place: u32,
+        /// So many times in all, of any robot.
+        count: usize,
+    },
     /// At this stamp these robots would break the clause if one of them stood still before its first position or behind
     /// its last one.
     Ending(i64, Vec<u32>),
@@ -305,7 +316,13 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         return Err(TooMuch { comparisons });
     }
     let silent = tracks.silences().next().map(|silence| Doubt::Silent(silence, tracks.silences().count()));
-    let doubt = silent.or_else(|| tracks.are_mostly_refused().then_some(Doubt::Refused));
+    let mut contradictions = tracks.contradictions();
+    let count = contradictions.len();
+    let contradiction = contradictions.next();
+    let contradiction =
+        contradiction.map(|(robot, at_us, place)| Doubt::Contradiction { robot, at_us, place, count });
+    let refused = || tracks.are_mostly_refused().then_some(Doubt::Refused);
+    let doubt = contradiction.or(silent).or_else(refused);
     if let Demand::Visited { grid, cells, is_whole } = demand {
         return visited(tracks, limits, *grid, cells, *is_whole, doubt);
     }

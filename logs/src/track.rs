@@ -1,7 +1,7 @@
 //! The positions of a log, by robot and time. Stamps that are late or far off are not taken,
 //! and said.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::{Log, Numbers, Sample};
 
@@ -24,8 +24,10 @@ pub struct Refusals {
     pub late: Option<(u32, u32)>,
     /// Stamps that are farther than the limit from the one before and from half of those behind.
     pub astray: Option<(u32, u32)>,
-    /// Positions in whose place another one of the same robot stands, at the same stamp.
+    /// Positions in whose place another one of the same robot stands, at the same stamp and within the tolerance.
     pub replaced: Option<(u32, u32)>,
+    /// Positions of a robot that is at several places at their stamp.
+    pub contradicted: Option<(u32, u32)>,
     /// Positions of names that are no robots.
     pub nobody: Option<(u32, u32)>,
 }
@@ -45,6 +47,9 @@ pub struct Silence {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Tracks {
     pub(crate) robots: Vec<Vec<Sample>>,
+    /// The stamps at which a robot is at several places, none of which is taken: by robot and time, each with the place
+    /// in the log at which that is seen.
+    contradictions: BTreeMap<(u32, i64), u32>,
     gap_us: u64,
     /// The first stamp and the last one.
     span_us: [i64; 2],
@@ -56,6 +61,13 @@ fn count(counted: &mut Option<(u32, u32)>, place: u32) {
     counted.get_or_insert((0, place)).0 += 1;
 }
 
+/// Whether two positions are so near each other, in millimetres.
+fn is_within(one: &Sample, other: &Sample, tolerance_mm: u32) -> bool {
+    let [x, y, most] =
+        [one.x_mm.abs_diff(other.x_mm), one.y_mm.abs_diff(other.y_mm), tolerance_mm].map(u64::from);
+    x * x + y * y <= most * most
+}
+
 /// The positions behind a stamp that is far off which say whether the log goes on from there.
 const LOOKED_AHEAD: usize = 16;
 
@@ -65,6 +77,7 @@ impl Tracks {
         let mut refused = Refusals::default();
         let mut robots = vec![Vec::new(); numbers.names().len()];
         let mut latest: HashMap<u32, i64> = HashMap::new();
+        let mut contradictions = BTreeMap::new();
         let mut now: Option<i64> = None;
         for (place, sample) in log.samples.iter().enumerate() {
             let Some(robot) = numbers.robot(sample.robot) else {
@@ -89,20 +102,27 @@ impl Tracks {
             now = Some(sample.at_us);
             let track: &mut Vec<Sample> = &mut robots[robot as usize];
             let sample = Sample { robot, ..*sample };
-            // Of several positions with one stamp the last counts.
-            match track.last_mut() {
-                Some(last) if last.at_us == sample.at_us => {
-                    if (last.x_mm, last.y_mm) != (sample.x_mm, sample.y_mm) {
-                        count(&mut refused.replaced, last.place);
-                    }
-                    *last = sample;
+            if contradictions.contains_key(&(robot, sample.at_us)) {
+                count(&mut refused.contradicted, sample.place);
+                continue;
+            }
+            // Of several positions with one stamp the last counts, and none if they differ by more than the tolerance.
+            match track.pop_if(|last| last.at_us == sample.at_us) {
+                Some(last) if !is_within(&last, &sample, limits.tolerance_mm) => {
+                    count(&mut refused.contradicted, last.place);
+                    count(&mut refused.contradicted, sample.place);
+                    contradictions.insert((robot, sample.at_us), sample.place);
+                }
+                Some(last) if (last.x_mm, last.y_mm) != (sample.x_mm, sample.y_mm) => {
+                    count(&mut refused.replaced, last.place);
+                    track.push(sample);
                 }
                 Some(_) | None => track.push(sample),
             }
         }
         let all = || robots.iter().flatten().map(|sample| sample.at_us);
         let span_us = [all().min().unwrap_or(0), all().max().unwrap_or(0)];
-        Self { robots, gap_us: limits.gap_us, span_us, refused, is_cut: log.cut.is_some() }
+        Self { robots, contradictions, gap_us: limits.gap_us, span_us, refused, is_cut: log.cut.is_some() }
     }
 
     /// How many robots there are, silent ones among them.
@@ -135,8 +155,15 @@ impl Tracks {
         self.span_us
     }
 
-    /// The place of a robot, in millimetres, if the log says it: a robot goes straight from one position to the next
-    /// one, unless the time between them is longer than the gap.
+    /// Whether a robot is taken to have gone straight from one position to the next one: the time between them is no
+    /// longer than the gap, and at no stamp in it the robot is at several places.
+    pub(super) fn goes_straight(&self, before: &Sample, after: &Sample) -> bool {
+        let [from, to] = [before, after].map(|sample| (sample.robot, sample.at_us));
+        after.at_us.abs_diff(before.at_us) <= self.gap_us
+            && self.contradictions.range(from..to).next().is_none()
+    }
+
+    /// The place of a robot, in millimetres, if the log says it.
     pub fn at(&self, robot: usize, at_us: i64) -> Option<[f64; 2]> {
         let track = self.robots.get(robot)?;
         let next = track.partition_point(|sample| sample.at_us < at_us);
@@ -146,10 +173,10 @@ impl Tracks {
             return Some([x, y]);
         }
         let before = track.get(next.checked_sub(1)?)?;
-        let whole = after.at_us.abs_diff(before.at_us);
-        if whole > self.gap_us {
+        if !self.goes_straight(before, after) {
             return None;
         }
+        let whole = after.at_us.abs_diff(before.at_us);
         let part = at_us.abs_diff(before.at_us) as f64 / whole as f64;
         let between = |from: i32, to: f64| f64::from(from) + part * (to - f64::from(from));
         Some([between(before.x_mm, x), between(before.y_mm, y)])
@@ -171,10 +198,15 @@ impl Tracks {
 
     /// Whether more positions of robots were not taken than were.
     pub fn are_mostly_refused(&self) -> bool {
-        let Refusals { late, astray, replaced, nobody: _ } = self.refused;
-        let refused =
-            [late, astray, replaced].into_iter().flatten().map(|(count, _)| count as usize).sum::<usize>();
-        refused > self.samples().count()
+        let Refusals { late, astray, replaced, contradicted, nobody: _ } = self.refused;
+        let refused = [late, astray, replaced, contradicted].into_iter().flatten();
+        refused.map(|(count, _)| count as usize).sum::<usize>() > self.samples().count()
+    }
+
+    /// The stamps at which a robot is at several places, by robot and time: robot, stamp, and the place in the log at
+    /// which that is seen.
+    pub fn contradictions(&self) -> impl ExactSizeIterator<Item = (u32, i64, u32)> + '_ {
+        self.contradictions.iter().map(|(&(robot, at_us), &place)| (robot, at_us, place))
     }
 
     /// The times in which a robot was silent for longer than the gap, by robot and time.

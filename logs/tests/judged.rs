@@ -47,6 +47,20 @@ fn cases() -> Vec<(&'static str, &'static str, Demand, Result<i64, bool>)> {
         ("out of range before the first position of one", "0 - 4000; 5 0 2000", RANGE, unknown),
         ("most positions late", "9 0 2000; 8 0 2000; 7 0 2000", RANGE, unknown),
         ("half of the positions late", "9 0 2000; 8 0 2000", RANGE, kept),
+        (
+            "at two places at once, the far one first",
+            "0 0 2000; 5 0 9000; 5 - 2000; 9 0 2000",
+            RANGE,
+            unknown,
+        ),
+        (
+            "at two places at once, the near one first",
+            "0 0 2000; 5 0 2000; 5 - 9000; 9 0 2000",
+            RANGE,
+            unknown,
+        ),
+        ("at two places at once, and broken", "0 0 2000; 5 0 9000; 5 - 2000; 9 0 9000", RANGE, Ok(9)),
+        ("at two places within the tolerance", "0 0 2000; 5 0 2100; 5 - 2000", RANGE, kept),
         ("alone", "0 0", RANGE, unknown),
         ("joined over another", "0 0 4000 2000", JOINED, kept),
         ("parted", "0 0 2000; 5 0 3000", JOINED, Ok(5)),
@@ -102,6 +116,8 @@ fn cases() -> Vec<(&'static str, &'static str, Demand, Result<i64, bool>)> {
         ),
         ("passed in a silence", "0 500; 11 2500", row(&[[0, 0], [1, 0], [2, 0]], true), unknown),
         ("visited perhaps in a silence", "0 500; 11 1500", row(&[[0, 0], [2, 0]], true), unknown),
+        ("visited on neither of two ways", "0 500; 5 2500; 5 500; 9 2500", row(&[[1, 0]], true), unknown),
+        ("visited beside two places at once", "0 500; 5 9500; 5 500; 9 500", row(&[[0, 0]], true), kept),
         ("perhaps later", "0 500; 9 1500", row(&[[0, 0], [2, 0]], false), unknown),
     ]
 }

@@ -163,9 +163,18 @@ fn late_and_far_stamps_are_not_taken() {
     assert_eq!((refused.late, refused.astray, refused.nobody), (Some((2, 4)), Some((1, 5)), Some((1, 9))));
     assert_eq!(tracks.at(1, 1_500_000), Some([1_500.0, 0.0]));
     assert_eq!(tracks.at(0, 1_500_000), None);
-    let log = read(b"t,robot,x,y\n0,a,0,0\n1,a,9,0\n1,a,1,0\n1,a,1,0\n").expect("a log");
+    let log = read(b"t,robot,x,y\n0,a,0,0\n1,a,1.04,0\n1,a,1,0\n1,a,1,0\n").expect("a log");
     let tracks = Tracks::new(&log, &Numbers::natural(&log.names), &LIMITS);
     assert_eq!((tracks.at(0, 1_000_000), tracks.refused().replaced), (Some([1_000.0, 0.0]), Some((1, 3))));
+    // None of the places of a robot that is at several ones at a stamp is taken, nor the straight way past it.
+    let several = read(b"t,robot,x,y\n0.5,a,0,0\n1,a,9,0\n1,a,1,0\n1,a,1,0\n1.2,a,1,0\n").expect("a log");
+    let tracks = Tracks::new(&several, &Numbers::natural(&several.names), &LIMITS);
+    assert_eq!((tracks.refused().contradicted, tracks.refused().replaced), (Some((3, 3)), None));
+    assert_eq!(tracks.contradictions().collect::<Vec<_>>(), [(0, 1_000_000, 4)]);
+    assert_eq!(
+        [500_000, 1_000_000, 1_100_000].map(|at_us| tracks.at(0, at_us)),
+        [Some([0.0, 0.0]), None, None]
+    );
     // A log that pauses goes on; a first stamp far off is not the log's.
     let pause = read(b"t,robot,x,y\n7,a,0,0\n1e6,a,0,0\n1000001,a,1,0\n").expect("a log");
     let tracks = Tracks::new(&pause, &Numbers::natural(&pause.names), &LIMITS);

@@ -137,6 +137,10 @@ impl LogReport<'_> {
         say(refused.late, "not taken: a stamp before an earlier one of the same robot");
         say(refused.astray, "not taken: a stamp farther than --jump from those before and behind it");
         say(refused.replaced, "not taken: a position before another one of the same robot at the same stamp");
+        say(
+            refused.contradicted,
+            "not taken: a position of a robot that is somewhere else at the same stamp",
+        );
         say(refused.nobody, "not taken: a name that is no robot");
         say(log.unplaced, "not taken: a position that is no number, or beyond 1,000 km");
         if let Some(misplaced) = self.misplaced {
@@ -300,6 +304,14 @@ impl LogReport<'_> {
             ),
             Doubt::Nowhere => {
                 "no robot is first in a free cell of the map, and the clause asks for nothing".to_owned()
+            }
+            Doubt::Contradiction { robot, at_us, place, count } => {
+                let (robot, at, form) = (self.robot(*robot), seconds(*at_us), self.log.form.place());
+                let all =
+                    if *count > 1 { format!("; {count} times in all some robot is") } else { String::new() };
+                format!(
+                    "robot {robot} is at several places at {at} s, farther apart than --tolerance ({form} {place}{all})"
+                )
             }
             Doubt::Refused => "more than half of the positions were not taken".to_owned(),
             Doubt::Ending(at_us, robots) => {
