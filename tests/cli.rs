@@ -931,6 +931,7 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
         ("another base", run.replacen("\"base\":[1,1]", "\"base\":[0,1]", 1)),
         ("a broken drawing", run.replacen("+--+--+--+", "+--+-?+--+", 1)),
         ("a clause that no run can break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-7\"", 1)),
+        ("an unknown rule", run.replacen("\"rule\":\"repaired\"", "\"rule\":\"wanders\"", 1)),
         ("a clause that no run can stop at", run.replacen("\"go-on\"", "{\"stop-at\":\"CHAIN-7\"}", 1)),
         ("a clause that it does not break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-1\"", 1)),
     ];

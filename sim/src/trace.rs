@@ -118,7 +118,7 @@ impl Trace {
         let Some(scheme) = catalogue.scheme(&header.scheme) else {
             return Err(lines.fault(text, "scheme", "this program does not know the scheme", AGAIN));
         };
-        let rule = catalogue.rule(&header.rule).map_err(|what| lines.no_line(text, "rule", &what, AGAIN))?;
+        let rule = RuleId::read(&header.rule);
         if let OnViolation::StopAt(last) = header.limits.violation
             && let Err(fault) = catalogue.clause(last.as_str())
         {

@@ -32,24 +32,6 @@ impl Catalogue {
         once(self.schemes().flat_map(|scheme| scheme.rules), |rule| rule.name)
     }
 
-    /// The rule with this name, if a scheme has one.
-    ///
-    /// # Errors
-    /// The fault in words, if none has.
-    pub(crate) fn rule(self, name: &str) -> Result<RuleId, String> {
-        let names: Vec<RuleId> = self.rules().into_iter().map(|rule| rule.name).collect();
-        let found = names.iter().copied().find(|rule| rule.as_str() == name);
-        found.ok_or_else(|| unknown(name, names.iter().map(|rule| rule.as_str())))
-    }
-
-    /// The scheme with this name.
-    ///
-    /// # Errors
-    /// The fault in words, if there is none.
-    pub(crate) fn find_scheme(self, name: &str) -> Result<Scheme, String> {
-        self.scheme(name).ok_or_else(|| unknown(name, self.names(|_| true).into_iter()))
-    }
-
     /// The clause with this id, if runs of a known scheme can break it.
     ///
     /// # Errors
@@ -73,12 +55,6 @@ impl Catalogue {
 fn once<T, K: Ord>(all: impl Iterator<Item = T>, key: impl Fn(&T) -> K) -> Vec<T> {
     let mut known = BTreeSet::new();
     all.filter(|one| known.insert(key(one))).collect()
-}
-
-/// The fault of a name that is none of these.
-fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
-    let known = listed(known.map(|known| format!("`{known}`")));
-    format!("unknown variant `{name}`, expected one of {known}")
 }
 
 /// The rows of schemes that are in no catalogue, by their names: files name few, and they are kept as long as the

@@ -10,16 +10,16 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::search::{Bounds, Deal as Walk, Findings, Position, Search};
 use tautline_proofs::engine::tree::Progress;
-use tautline_proofs::plural::counted;
+use tautline_proofs::plural::{counted, listed};
 
 use super::areas;
 pub use super::bounds::bounds;
 use super::bounds::{AGAIN, fault, finding, team};
-use crate::explore::Catalogue;
 use crate::explore::hunt::{
     Bound, CoveredBound, Deal, Deals, Dealt, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
     OngoingHunt, RUN_AGAIN, RunSize, outcome,
 };
+use crate::explore::{Catalogue, RuleId};
 
 /// The chain that is hunted.
 #[derive(Debug)]
@@ -256,8 +256,12 @@ impl Task for HuntTask {
 
     fn unknown(&self, kept: &Self) -> Option<(&'static str, String)> {
         let known = self.known?;
-        let scheme = known.find_scheme(&kept.scheme).err().map(|what| ("scheme", what));
-        scheme.or_else(|| known.rule(&kept.rule).err().map(|what| ("rule", what)))
+        let Some(scheme) = known.scheme(&kept.scheme) else {
+            let names = listed(known.names(|_| true).iter().map(|name| format!("`{name}`")));
+            return Some(("scheme", format!("unknown variant `{}`, expected one of {names}", kept.scheme)));
+        };
+        let fault = scheme.find_rule(RuleId::read(&kept.rule)).err()?;
+        Some(("rule", format!("{}: {}", fault.what(), fault.remedy())))
     }
 }
 
@@ -289,7 +293,6 @@ mod tests {
     use tautline_kernel::chain::Rule;
 
     use super::*;
-    use crate::explore::RuleId;
     use crate::explore::chain::CHAIN;
     use crate::explore::hunt::Exhibit;
 
