@@ -1327,7 +1327,7 @@ fn a_hundred_thousand_threads_are_as_many_as_make_sense() {
 fn an_option_that_can_have_no_effect_is_refused() {
     let folder = &folder();
     write(folder, "ring", RING);
-    let wrong: [&[&str]; 21] = [
+    let wrong: [&[&str]; 25] = [
         &["library", "--memory", "1GiB"],
         &["library", "--patience", "3"],
         &["explore", "ring", "--seed", "1"],
@@ -1348,6 +1348,10 @@ fn an_option_that_can_have_no_effect_is_refused() {
         &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--readings", "5"],
         &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--readings", "0"],
         &["locate", "--noise-db", "0", "--at", "3,3", "--seed", "1"],
+        &["explore", "open:4x4", "--scheme", "frontier", "--robots", "1", "--loss", "0.1"],
+        &["explore", "open:4x4", "--scheme", "kit", "--robots", "1", "--range", "4"],
+        &["hunt", "--scheme", "frontier", "--robots", "1", "--size", "2x1", "--max-losses", "1"],
+        &["hunt", "--scheme", "kit", "--robots", "1", "--size", "2x1", "--range", "4"],
         &["judge", "log.csv", "--clauses", "CHAIN-2", "--map", "open:9x9", "--seed", "1"],
     ];
     assert_snapshot!("needless_options", refusals(folder, &[], &wrong));

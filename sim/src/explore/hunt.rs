@@ -12,6 +12,7 @@ use tautline_proofs::run::Run;
 
 pub use super::bounds::{Bound, CoveredBound, Dealt, Exhibit, Facts, Far, Hunter, RunSize};
 pub use super::scheme::{Deals, Finding, Hunt, HuntReport, HuntRequest, OngoingHunt};
+use super::setup::{ALONE, needless};
 use super::{ClauseId, Limits, Profile, RuleId, Scheme, Setup};
 use tautline_grids::layout::{Layout, Size};
 
@@ -109,7 +110,7 @@ impl HuntRequest<'_> {
         Ok(Setup { limits: Limits::stopping_at(clause), ..setup.starting_in(starts) })
     }
 
-    /// Refuses a bound that is given and that `hunt` does not take.
+    /// Refuses a bound that is given, and that `hunt` does not take or that has no effect.
     ///
     /// # Errors
     /// A [`Diagnostic`] that says why.
@@ -123,11 +124,16 @@ impl HuntRequest<'_> {
             (Bound::Range, self.range_cells.is_some()),
             (Bound::Resume, self.resume.is_some()),
         ];
-        let refused = given.into_iter().find(|(bound, is_given)| *is_given && !hunt.takes().contains(bound));
-        refused.map_or(Ok(()), |(bound, _)| {
-            let (what, remedy) = hunt.refusal(bound);
-            Err(Diagnostic::usage(what, remedy))
-        })
+        for (bound, _) in given.into_iter().filter(|(_, is_given)| *is_given) {
+            if !hunt.takes().contains(&bound) {
+                let (what, remedy) = hunt.refusal(bound);
+                return Err(Diagnostic::usage(what, remedy));
+            }
+            if self.robots == Some(1) && matches!(bound, Bound::Losses | Bound::Range) {
+                return Err(needless(bound.field(), ALONE));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -15,6 +15,14 @@ use crate::options::{Extra, Options};
 use tautline_grids::chance::Probability;
 use tautline_grids::layout::Layout;
 
+/// Why nothing that is heard has an effect on one robot, and what would be right.
+pub(super) const ALONE: (&str, &str) = ("one robot hears nobody", "leave it out, or take more `robots`");
+
+/// The fault of a field that has no effect, why it has none, and what would be right.
+pub(super) fn needless(field: &'static str, (why, remedy): (&str, &str)) -> Diagnostic {
+    Diagnostic::of_field(field, format_args!("`{field}` has no effect: {why}"), remedy)
+}
+
 impl Setup {
     /// A run of `scheme` in `layout` with a base, all robots starting there, nothing missed, and no limits.
     pub fn new(
@@ -306,10 +314,9 @@ impl Setup {
     /// # Errors
     /// A [`Diagnostic`] that says why it has none.
     pub fn check_effect(&self, extra: &Extra) -> Result<(), Diagnostic> {
-        (self.scheme.needless)(self, extra).map_or(Ok(()), |(why, remedy)| {
-            let what = format!("`{}` has no effect: {why}", extra.field);
-            Err(Diagnostic::of_field(extra.field, what, remedy))
-        })
+        let is_deaf = self.robots == 1 && [Extra::RANGE, Extra::LOSS].contains(&extra);
+        let why = if is_deaf { Some(ALONE) } else { (self.scheme.needless)(self, extra) };
+        why.map_or(Ok(()), |why| Err(needless(extra.field, why)))
     }
 
     /// Refuses missed sensors where there are none, and those that make no run.
