@@ -116,6 +116,18 @@ fn each_tool_answers_as_its_command_does() {
 }
 
 #[test]
+fn a_line_that_is_no_json_is_passed_over_and_one_that_is_no_message_refused() {
+    let folder = &with_runs();
+    let mut client = Client::new(folder);
+    writeln!(client.input, "no JSON").expect("a server that reads");
+    client.tells(&json!({"neither": "a call"}));
+    let line = client.output.next().expect("an answer").expect("text");
+    let answer: Value = serde_json::from_str(&line).expect("JSON");
+    assert_eq!(answer["error"]["code"], -32600, "{answer}");
+    assert!(client.asks("ping", &json!({}))["result"].is_object());
+}
+
+#[test]
 fn a_call_that_could_not_store_its_file_has_failed() {
     let folder = &with_runs();
     let foreign = folder.join("runs/found/chain-13-published-n3.jsonl");
