@@ -313,12 +313,14 @@ fn text(setting: &Setting, report: &Report) -> String {
 fn advice(advice: &Advice) -> String {
     let Advice { side_m, p99_m, cells_believed, cells_tracked } = advice;
     let side_m = Number(*side_m);
+    let [believed, tracked] = [*cells_believed, *cells_tracked].map(|cells| match cells {
+        Advice::MOST_CELLS => format!("{cells} cells and more"),
+        _ => format!("at most {}", counted(cells, "cell")),
+    });
     format!(
         "\n99 % of the errors are below {p99_m:.3} m. Across {side_m} m a floor can have\n\
-         at most {} where a robot believes each fix,\n\
-         at most {} where it counts its cells by moves and lets fixes correct its place within one.\n",
-        counted(*cells_believed as usize, "cell"),
-        counted(*cells_tracked as usize, "cell")
+         {believed} where a robot believes each fix,\n\
+         {tracked} where it counts its cells by moves and lets fixes correct its place within one.\n"
     )
 }
 

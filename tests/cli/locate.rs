@@ -53,6 +53,11 @@ fn advice_says_how_many_cells_a_floor_can_have() {
         [number("cells_believed") as u32, number("cells_tracked") as u32]
     };
     assert_eq!([cells("1"), cells("0.25"), cells("0.1")], [[0, 1], [3, 6], [8, 16]]);
+    let exact = printed(folder, &["locate", "--noise-db", "0", "--advice"], 0);
+    says(
+        &exact,
+        &["1000000000 cells and more where a robot believes", "1000000000 cells and more where it counts"],
+    );
 }
 
 /// Three robots: the second one on the line of its anchors' mirror, the third one with four anchors.

@@ -165,9 +165,9 @@ pub struct Advice {
     pub side_m: f64,
     /// The 99th percentile of the errors, in metres.
     pub p99_m: f64,
-    /// Cells from side to side, if each fix is believed.
+    /// Cells from side to side, if each fix is believed; 1,000,000,000 stands for so many and more.
     pub cells_believed: u32,
-    /// Cells from side to side, if the cell is counted by moves, and fixes correct the place within it.
+    /// Cells from side to side, if the cell is counted by moves, and fixes correct the place within it; likewise.
     pub cells_tracked: u32,
 }
 
@@ -204,9 +204,12 @@ impl Advice {
     /// Trials that it needs: the largest of fewer errors is not above the true 99th percentile in 95 % of all cases.
     pub const FEWEST: u32 = 300;
 
+    /// The count that stands for so many cells and more, as without noise.
+    pub const MOST_CELLS: u32 = 1_000_000_000;
+
     fn new(side_m: f64, errors_m: &[f64]) -> Self {
         let (p99_m, _) = quantile(errors_m, 0.99);
-        let cells = |parts: f64| (side_m / (parts * p99_m)).min(1e9) as u32;
+        let cells = |parts: f64| (side_m / (parts * p99_m)).min(Self::MOST_CELLS.into()) as u32;
         Self {
             side_m: decimals(side_m, PARTS),
             p99_m: decimals(p99_m, PARTS),
