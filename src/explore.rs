@@ -399,7 +399,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
         report.stop_words(),
     );
     text += &explored(report);
-    text += &reach(run.setup());
+    text += &reach(run.setup(), report.explored);
     if let Some(milliseconds) = report.milliseconds {
         let robot = run.setup().scheme.look.robot();
         let _ = writeln!(text, "the slowest {robot} took {} s", milliseconds / 1000);
@@ -441,13 +441,13 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     text + &violations(run, report) + &excuse(run.setup(), report)
 }
 
-/// How far the team comes, if there is more than that.
-fn reach(setup: &Setup) -> String {
+/// How far the team comes, if there is more than it has `explored`.
+fn reach(setup: &Setup, explored: u32) -> String {
     let reach = team(setup).ok().and_then(|team| team.reach(&setup.layout));
-    match reach {
+    match reach.filter(|reach| reach.connected > explored as usize) {
         Some(Reach { cells, connected, robots }) => format!(
-            "{cells} of {} are within {} of the base, the reach of this {}; that of one of {robots} robots has all \
-             {connected} that are connected with the base\n",
+            "{cells} of {} are within {} of the base, the reach of this {}, which may explore others beside it; the \
+             reach of one of {robots} robots has all {connected} that are connected with the base\n",
             counted(setup.layout.free_cells(), "free cell"),
             counted(setup.robots.saturating_sub(1), "link"),
             setup.scheme.team,

@@ -136,9 +136,12 @@ fn a_run_says_how_far_the_team_comes() {
     let reach: Vec<&str> = told.lines().filter(|line| line.contains("the reach of")).collect();
     assert_snapshot!(
         reach.join("\n"),
-        @"49 of 1600 free cells are within 3 links of the base, the reach of this chain; that of one of 21 robots \
-          has all 1600 that are connected with the base"
+        @"49 of 1600 free cells are within 3 links of the base, the reach of this chain, which may explore others \
+          beside it; the reach of one of 21 robots has all 1600 that are connected with the base"
     );
+    // Where all is explored, also beyond the reach, it is no limit.
+    let all = printed(folder, &["explore", "walls:6x6:0.2", "--seed", "12", "--robots", "5"], 0);
+    assert!(all.contains("36 of 36 cells explored") && !all.contains("the reach of"), "{all}");
 }
 
 #[test]
