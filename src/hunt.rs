@@ -128,7 +128,7 @@ struct Answer<'a> {
     asked: &'a HuntRequest<'a>,
     hunted: &'a HuntReport,
     verdict: Verdict,
-    /// The file of each; none for a run without end, nor for one that was left out.
+    /// The file of each; none for a run that no file tells, nor for one that was left out.
     files: Vec<Option<String>>,
 }
 
@@ -373,8 +373,12 @@ impl Answer<'_> {
         for (finding, file) in self.hunted.found.iter().zip(&self.files) {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "\n{}, {}\n\n{}", finding.clause, finding.title, picture(finding)?);
-            if let Some(file) = file {
-                text += &again(file, &finding.setup);
+            match (file, &finding.shown) {
+                (Some(file), _) => text += &again(file, &finding.setup),
+                (None, Exhibit::Told(_)) => {
+                    text += "no file is stored: a stored run has no word for what breaks the clause here\n";
+                }
+                (None, Exhibit::Run(_) | Exhibit::Story(..) | Exhibit::Endless) => {}
             }
         }
         if let Some(path) = self.asked.resume {

@@ -83,6 +83,14 @@ fn what_a_hunt_has_stored_is_judged_where_there_is_a_judge_and_has_an_end_only_i
 }
 
 #[test]
+fn a_run_that_no_file_tells_is_said_to_be_none() {
+    let folder = &folder();
+    let hunt = ["hunt", "--scheme", "frontier", "--robots", "1", "--size", "2x1", "--error", "0.5"];
+    says(&printed(folder, &hunt, 1), &["FRONTIER-5, 2x1 cells", "no file is stored: "]);
+    assert_eq!(names(folder), [""; 0]);
+}
+
+#[test]
 fn agents_that_go_round_for_ever_are_stored_up_to_where_they_are_as_before() {
     let folder = &folder();
     let hunt = ["hunt", "--scheme", "bricks", "--rule", "published", "--max-misses", "0", "--size", "5x3"];
