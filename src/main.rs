@@ -84,7 +84,8 @@ All commands: tautline help; one of them: tautline help COMMAND
 
 /// The fate of files.
 const FILES: &str = "\
-Files stand in their places whole or not at all, those of one command together at its end. Only a process that ends \
+Files stand in their places whole or not at all, those of one command together at its end. A file that cannot be \
+stored is left out, the others are stored all the same, and the exit code is 2. Only a process that ends \
 by a signal other than Ctrl-C, SIGTERM and SIGHUP can leave a file .tautline-….part behind, which nobody needs.";
 
 const LAYOUTS: &str = "\
@@ -188,13 +189,21 @@ fn told(error: &clap::Error) -> Exit {
 /// The error with the names that a command knows, where it was given another one, and none is like it.
 fn with_names(mut error: clap::Error) -> clap::Error {
     let is_told = error.get(ContextKind::SuggestedSubcommand).is_some();
-    if is_told || error.kind() != ErrorKind::InvalidSubcommand {
+    let Some(word) = error.get(ContextKind::InvalidSubcommand).filter(|_| !is_told).cloned() else {
         return error;
     }
     let usage = error.get(ContextKind::Usage).map(ToString::to_string).unwrap_or_default();
     let mut program = program();
     program.build();
-    if let Some(command) = by_usage(&mut program, &usage) {
+    let command = by_usage(&mut program, &usage);
+    if let Some(command) = command.filter(|command| command.find_subcommand(word.to_string()).is_none()) {
+        // Behind an option such a word is said to conflict with it.
+        if error.kind() == ErrorKind::ArgumentConflict {
+            let usage = command.clone().render_usage();
+            error = clap::Error::new(ErrorKind::InvalidSubcommand).with_cmd(command);
+            error.insert(ContextKind::InvalidSubcommand, word);
+            error.insert(ContextKind::Usage, ContextValue::StyledStr(usage));
+        }
         let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
         let of = command.get_subcommand_help_heading().unwrap_or("commands").to_lowercase();
         let tip = format!("the {of} are {}", names.join(", "));

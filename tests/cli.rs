@@ -740,7 +740,7 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
     let folder = &folder();
     write(folder, "file", "");
-    let wrong: [&[&str]; 47] = [
+    let wrong: [&[&str]; 48] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
         &["explore", "open:9x9", "--robots", "257"],
@@ -778,6 +778,7 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["explore", "open:9x9", "--robots", "-1"],
         &["rescue", "--wfr-at", "-1"],
         &["reproduce", "antenna-fig4", "--runs", "-1"],
+        &["reproduce", "--format", "json", "nope"],
         &["hunt", "--out", "file"],
         &["hunt", "--out", "file"],
         &["hunt", "--robots", "65"],
@@ -930,8 +931,8 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
         ("too many robots", run.replacen("\"robots\":2", "\"robots\":999", 1)),
         ("another base", run.replacen("\"base\":[1,1]", "\"base\":[0,1]", 1)),
         ("a broken drawing", run.replacen("+--+--+--+", "+--+-?+--+", 1)),
-        ("a clause that no run can break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-7\"", 1)),
         ("an unknown rule", run.replacen("\"rule\":\"repaired\"", "\"rule\":\"wanders\"", 1)),
+        ("a clause that no run can break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-7\"", 1)),
         ("a clause that no run can stop at", run.replacen("\"go-on\"", "{\"stop-at\":\"CHAIN-7\"}", 1)),
         ("a clause that it does not break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-1\"", 1)),
     ];
@@ -1347,11 +1348,11 @@ fn an_option_that_can_have_no_effect_is_refused() {
         &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--anchors", "5"],
         &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--readings", "5"],
         &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--readings", "0"],
-        &["locate", "--noise-db", "0", "--at", "3,3", "--seed", "1"],
         &["explore", "open:4x4", "--scheme", "frontier", "--robots", "1", "--loss", "0.1"],
         &["explore", "open:4x4", "--scheme", "kit", "--robots", "1", "--range", "4"],
         &["hunt", "--scheme", "frontier", "--robots", "1", "--size", "2x1", "--max-losses", "1"],
         &["hunt", "--scheme", "kit", "--robots", "1", "--size", "2x1", "--range", "4"],
+        &["locate", "--noise-db", "0", "--at", "3,3", "--seed", "1"],
         &["judge", "log.csv", "--clauses", "CHAIN-2", "--map", "open:9x9", "--seed", "1"],
     ];
     assert_snapshot!("needless_options", refusals(folder, &[], &wrong));
