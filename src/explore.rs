@@ -236,8 +236,10 @@ impl Explore {
             grid.append(ros_map::image(&setup, &report));
             let name = grid.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
             map.append(ros_map::description(&name, frame, &setup, &report));
-            out.keep(grid);
-            out.keep(map);
+            // A map without its image is none.
+            if out.keep(grid) {
+                out.keep(map);
+            }
         }
         let drawn = |panel: Panel| Ok(Panel::picture(&setup.title(), &[panel]));
         out.store(picture, |picture| {

@@ -191,7 +191,7 @@ fn with_names(mut error: clap::Error) -> clap::Error {
     let is_told = error.get(ContextKind::SuggestedSubcommand).is_some();
     let Some(word) = error.get(ContextKind::InvalidSubcommand).filter(|_| !is_told).cloned() else {
         return error;
-    }
+    };
     let usage = error.get(ContextKind::Usage).map(ToString::to_string).unwrap_or_default();
     let mut program = program();
     program.build();

@@ -200,6 +200,9 @@ fn without_room_for_one_file_the_rest_is_stored_and_printed() {
     assert_eq!(names(folder), ["s.svg", "t.jsonl"]);
     let (code, told, said) = limited(4, &format!("{explore} --trace u.jsonl"), "");
     assert_eq!((code, &told), (Some(2), &whole), "{said}");
+    let (code, _, said) =
+        limited(4, "explore open:99x99 --scheme frontier --robots 1 --until 50 --map m.yaml", "");
+    assert_eq!((code, names(folder).contains(&"m.yaml".to_owned())), (Some(2), false), "{said}");
     let (code, ..) = limited(4, "rescue --seeds 0 --trace r.jsonl --html r.html --svg r.svg", "");
     assert_eq!(code, Some(2));
     let (code, told, _) = limited(4, "hunt --rule published --max-walls 2 --resume kept.json", "");
