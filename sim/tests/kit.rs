@@ -247,8 +247,8 @@ fn hunted(asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic> {
 /// The clauses that are broken, each with its columns, rows, walls and drives.
 fn broken(hunted: &HuntReport) -> Vec<(&'static str, [usize; 4])> {
     let size = |finding: &Finding| match finding.facts {
-        RunSize::Area { columns, rows, walls, steps } => [columns, rows, walls, steps],
-        RunSize::Runs { .. } | RunSize::Misses { .. } => panic!("an area"),
+        RunSize::Lattice { columns, rows, walls, drives } => [columns, rows, walls, drives],
+        RunSize::Runs { .. } | RunSize::Area { .. } | RunSize::Misses { .. } => panic!("a lattice"),
     };
     hunted.found.iter().map(|finding| (finding.clause, size(finding))).collect()
 }

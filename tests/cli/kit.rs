@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use serde_json::Value;
+
 use super::{folder, json, names, printed, ran, read, refused, says};
 
 /// Whether the judge has accepted a counterexample.
@@ -18,7 +20,7 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
     assert_eq!((&published["verdict"], &published["complete"]), (&"refuted".into(), &true.into()));
     let found = published["counterexamples"].as_array().expect("a list");
     let collision = found.iter().find(|finding| finding["clause"] == "KIT-3").expect("robots meet");
-    assert_eq!(collision["steps"], 3);
+    assert_eq!((&collision["drives"], &collision["steps"]), (&3.into(), &Value::Null));
     let stored = || found.iter().filter_map(|finding| Some((finding, finding["file"].as_str()?)));
     for (finding, file) in stored() {
         let replayed = printed(folder, &["replay", file], 1);
@@ -58,7 +60,7 @@ fn a_hunt_of_another_reading_stores_runs_that_break_it_again() {
     let ahead = json(folder, &hunt, 1);
     let found = ahead["counterexamples"].as_array().expect("a list");
     let cut = found.iter().find(|finding| finding["clause"] == "KIT-1").expect("robots lose contact");
-    assert_eq!(cut["steps"], 4);
+    assert_eq!(cut["drives"], 4);
     for finding in found {
         let replayed = printed(folder, &["replay", finding["file"].as_str().expect("a file")], 1);
         let clause = finding["clause"].as_str().expect("an id");

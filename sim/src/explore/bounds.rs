@@ -154,8 +154,10 @@ pub enum CoveredBound {
 pub enum RunSize {
     /// In the one area that is searched: `runs` of them break the clause.
     Runs { runs: u64, walls: usize, steps: usize },
-    /// In an area of its own. Of KIT `steps` are drives alone, and not decisions to stay.
+    /// In an area of its own.
     Area { columns: usize, rows: usize, walls: usize, steps: usize },
+    /// On a lattice of its own; `drives` are those of its team moves in which a robot does not stay.
+    Lattice { columns: usize, rows: usize, walls: usize, drives: usize },
     /// In an area of its own, with missed sensors.
     Misses { misses: usize, columns: i16, rows: i16, steps: u32 },
 }

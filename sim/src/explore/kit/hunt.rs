@@ -109,12 +109,11 @@ impl Hunt for KernelHunt {
             _ => searched(rule, &[Pass::ALL, Pass::WHOLE], itself::<3>(), size, &mut search),
         }?;
         let Count { states, steps, cells, .. } = search.count;
-        let max_walls = asked.max_walls;
+        let &HuntRequest { max_walls, range_cells: range, .. } = asked;
         let within = max_walls.map(|walls| format!(", at most {}", counted(walls, "wall")));
-        let range = asked.range_cells.map(|cells| format!(", a range of {}", counted(cells, "cell")));
-        let within = within.unwrap_or_default() + &range.unwrap_or_default();
-        let facts =
-            Facts::States { size: size.to_string(), states, steps, max_walls, range: asked.range_cells };
+        let heard = range.map(|cells| format!(", a range of {}", counted(cells, "cell")));
+        let within = within.unwrap_or_default() + &heard.unwrap_or_default();
+        let facts = Facts::States { size: size.to_string(), states, steps, max_walls, range };
         let done = CoveredBound::NodesDone(cells);
         Ok(SMALL.report((size, robots, &within), facts, done, search.count, found))
     }
@@ -210,11 +209,11 @@ fn finding<const ROBOTS: usize>(
         return Err(Diagnostic::usage("a run was found that cannot be made again", remedy));
     };
     let (layout, starts) = layout(&run)?;
-    let (steps, walls) = (found.drives(), run.walls.len());
+    let (drives, walls) = (found.drives(), run.walls.len());
     Ok(Finding {
         clause: clause.as_str(),
-        facts: RunSize::Area { columns, rows, walls, steps },
-        title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(steps, "drive")),
+        facts: RunSize::Lattice { columns, rows, walls, drives },
+        title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
         shown: Exhibit::Story(*clause, found.story()),
         setup: Setup { choices, ..asked.setup(layout, starts, Some(*clause))? },
     })
