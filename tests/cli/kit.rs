@@ -40,6 +40,20 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
     assert_eq!(stopped.status.code(), Some(3));
 }
 
+#[test]
+fn each_section_of_a_hunt_explains_the_clause_of_its_heading() {
+    let folder = &folder();
+    let hunt = ["hunt", "--rule", "published", "--robots", "2", "--size"];
+    let kit = printed(folder, &[&hunt[..], &["3x1", "--scheme", "kit"]].concat(), 1);
+    let frontier = printed(folder, &[&hunt[..], &["3x2", "--scheme", "frontier"]].concat(), 1);
+    let sections: Vec<&str> = kit.split("\n\nreplay").chain(frontier.split("\n\nreplay")).collect();
+    for clause in ["KIT-6", "KIT-7", "KIT-8", "KIT-14", "FRONTIER-1", "FRONTIER-4"] {
+        let section =
+            sections.iter().find(|section| section.contains(&format!("\n{clause}, "))).expect(clause);
+        assert!(section.contains(&format!(" breaks {clause}: ")), "{section}");
+    }
+}
+
 /// At any speeds three drives break KIT-3; at equal ones, which the paper has, four do.
 #[test]
 fn a_run_at_equal_speeds_that_is_made_smaller_is_one_at_equal_speeds() {

@@ -11,7 +11,7 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run, name_of};
 
 use super::{Pose, agents, first_drawn, legend, outcome, team_move};
-use crate::explore::{ClauseId, Look, Play, Report, StopReason, Survey, TeamMove, Violation};
+use crate::explore::{ClauseId, Look, OnViolation, Play, Report, StopReason, Survey, TeamMove, Violation};
 use tautline_grids::layout::Layout;
 
 /// The id of a clause, with its sentence where `run` knows it.
@@ -22,7 +22,7 @@ fn with_sentence(run: &dyn Play, id: ClauseId) -> String {
 /// The words that begin the story of a run whose end breaks `clause` after team move number `step`.
 fn end_breaks(run: &dyn Play, report: &Report, step: u32, clause: ClauseId) -> String {
     let broken = with_sentence(run, clause);
-    if report.stopped != StopReason::Endless || !matches!(run.setup().scheme.look, Look::Own) {
+    if report.stopped != StopReason::Endless {
         return format!("The end after team move {step} breaks {broken}");
     }
     match run.round() {
@@ -173,26 +173,27 @@ pub fn turns(course: &Course) -> Result<(String, Vec<Block>), Diagnostic> {
     Ok((format!("{}\n\n{words}{last}", legend(Look::Apart)), blocks))
 }
 
-/// How the last team move of `run`, or its end, breaks its clauses.
+/// How the last team move of `run`, or its end, breaks the clause at which the run stops, or else those that it breaks.
 ///
 /// # Errors
 /// [`Halt`] if the run cannot be made.
 pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
     let report = run.play(&mut |_| Ok(()))?;
-    let end = of_end(run, &report);
-    if !end.is_empty() {
-        return Ok(end);
-    }
-    let Some(&Violation { clause, step }) = report.violations.last() else {
+    let is_asked = |broken: &&Violation| run.setup().limits.violation == OnViolation::StopAt(broken.clause);
+    let misses = |broken: &&Violation| run.missed(broken.clause, &report.chart).is_some();
+    let mut broken = report.violations.iter();
+    let asked = broken.clone().find(is_asked).or_else(|| broken.clone().find(misses));
+    let Some(&Violation { clause, step }) = asked.or(broken.next_back()) else {
         let head = format!("The run ends after team move {}: {}.", report.steps, report.stop_words());
         let (what, cells) = left(&report);
         return Ok(unexplored(run, &report, &head, what, &cells));
     };
     // An end that misses no cell is drawn as it is.
+    let (what, cells) = run.missed(clause, &report.chart).unwrap_or_default();
     let head = end_breaks(run, &report, step, clause);
-    let mut story = unexplored(run, &report, &head, "", &[]);
+    let mut story = unexplored(run, &report, &head, what, &cells);
     run.play(&mut |made| {
-        if made.step == report.steps && !made.broken.is_empty() {
+        if made.step == report.steps && made.broken.contains(&clause) {
             story = of(run, &report.chart, made);
         }
         Ok(())
