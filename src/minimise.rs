@@ -69,6 +69,9 @@ pub(super) struct MinimiseJson {
     runs: u32,
     #[serde(skip)]
     is_searched: bool,
+    /// Whether sensors are missed by chance.
+    #[serde(skip)]
+    is_drawn: bool,
     /// Where it is stored, unless it was left out.
     file: Option<String>,
 }
@@ -253,6 +256,7 @@ impl Minimise {
             after: *after,
             runs: *runs,
             is_searched: !setup.choices.is_empty(),
+            is_drawn: !setup.miss.is_never(),
             file: keep(file, out),
         };
         Ok((minimised, report))
@@ -291,5 +295,13 @@ fn tell(name: &str, minimised: &MinimiseJson) -> String {
             counted(*runs, "run")
         )
     };
+    if minimised.is_drawn {
+        text +=
+            "Sensors that are missed by chance are not parts: each run draws them anew by the same seed.\n";
+    }
+    if after.steps > before.steps {
+        text +=
+            "It takes more team moves than before: a run with fewer parts is smaller, however long it is.\n";
+    }
     text
 }
