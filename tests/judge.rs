@@ -227,7 +227,15 @@ fn a_log_that_is_cut_keeps_nothing() {
     write(folder, "cut.csv", &text[..end]);
     let (told, _) = judged(folder, "cut.csv --clauses CHAIN-3,PACK-2", 3);
     let why = "unknown: the log is cut, and the run may have gone on";
-    says(&told, &["the log is cut in line", &format!("CHAIN-3: {why}"), &format!("PACK-2: {why}")]);
+    says(
+        &told,
+        &[
+            "the log is cut in line",
+            "which has no line break, and is not taken",
+            &format!("CHAIN-3: {why}"),
+            &format!("PACK-2: {why}"),
+        ],
+    );
 }
 
 /// The east room is a robot's own; its first place is a finger's breadth within the wall.

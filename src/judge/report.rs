@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::diagnostic::{Diagnostic, one_line};
 use tautline_io::svg::Panel;
-use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Numbers, Strays, Tracks, Verdict};
+use tautline_logs::{Breach, Demand, Doubt, Form, Limits, Log, Numbers, Strays, Tracks, Verdict};
 use tautline_proofs::plural::counted;
 
 use super::ground::LogMap;
@@ -153,7 +153,8 @@ impl LogReport<'_> {
             }
         }
         if let Some(cut) = log.cut {
-            remarks.push(format!("the log is cut in {place} {cut}, which is not taken"));
+            let why = if log.form == Form::Csv { "has no line break, and " } else { "" };
+            remarks.push(format!("the log is cut in {place} {cut}, which {why}is not taken"));
         }
         if log.frames.len() > 1 {
             let frames: Vec<_> = log.frames.iter().take(SHOWN).map(|frame| one_line(frame)).collect();
