@@ -15,7 +15,8 @@ mod rule;
 mod titles;
 mod world;
 
-use std::fmt;
+use std::rc::Rc;
+use std::{fmt, iter};
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
@@ -28,7 +29,6 @@ pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, Senses, TeamState, T
 pub use self::world::{Event, Part, TeamWorld};
 use crate::decide::MethodError;
 use crate::engine::states::Bits;
-use crate::protocol::arrangements;
 
 /// Where robots start, or where they are to go.
 #[derive(Clone, Copy, Debug)]
@@ -170,10 +170,15 @@ impl<R: Rule> Setting<'_, R> {
     }
 
     /// The cells in which robots may be placed, for each way to place them.
-    fn placed(&self, places: &Places<R>, rule: &R, map: &Map) -> Result<Vec<Vec<Cell>>, MethodError> {
+    fn placed(
+        &self,
+        places: &Places<R>,
+        rule: &R,
+        map: &Map,
+    ) -> Result<Box<dyn Iterator<Item = Vec<Cell>>>, MethodError> {
         let robots = self.robots;
-        Ok(match places {
-            Places::None => vec![Vec::new()],
+        let is_distinct = match places {
+            Places::None => return Ok(Box::new(iter::once(Vec::new()))),
             Places::At(cells) => {
                 let cells = cells(rule);
                 let why = format_args!("{robots} robots are placed in {} cells", cells.len());
@@ -186,14 +191,54 @@ impl<R: Rule> Setting<'_, R> {
                     };
                     return Err(MethodError::new(format_args!("a robot starts in {outside}, {why}")));
                 }
-                vec![cells]
+                return Ok(Box::new(iter::once(cells)));
             }
-            Places::Any => {
-                let free = map.free();
-                let longer = |row: Vec<Cell>| free.iter().map(move |&cell| [&row[..], &[cell]].concat());
-                (0..robots).fold(vec![Vec::new()], |rows, _| rows.into_iter().flat_map(longer).collect())
+            Places::Any => false,
+            Places::Distinct => true,
+        };
+        let free: Rc<[Cell]> = map.free().into();
+        if is_distinct && free.len() < robots {
+            return Ok(Box::new(iter::empty()));
+        }
+        let one: Box<dyn Iterator<Item = Vec<Cell>>> = Box::new(iter::once(Vec::new()));
+        Ok((0..robots).fold(one, |rows, _| {
+            let free = Rc::clone(&free);
+            Box::new(rows.flat_map(move |row| {
+                let fits = |cell: &&Cell| !is_distinct || !row.contains(cell);
+                let longer = |&cell: &Cell| [&row[..], &[cell]].concat();
+                free.iter().filter(fits).map(longer).collect::<Vec<_>>()
+            }))
+        }))
+    }
+
+    /// The layouts that are decided before a run begins, in each of which robots can be placed as they are to be.
+    ///
+    /// # Errors
+    /// [`MethodError`] as of [`Self::starts`].
+    fn maps(&self, rule: &R) -> Result<Vec<Map>, MethodError> {
+        let why = format_args!("a team has 1 to {MOST_ROBOTS} robots, not {}", self.robots);
+        MethodError::unless((1..=MOST_ROBOTS).contains(&self.robots), why)?;
+        let maps = self.ground.maps()?;
+        for map in &maps {
+            for places in [&self.starts, &self.goals] {
+                drop(self.placed(places, rule, map)?);
             }
-            Places::Distinct => arrangements(&map.free(), robots),
+        }
+        Ok(maps)
+    }
+
+    /// The scenes in which a run begins in this layout, each made when it is asked for: they may be more than memory
+    /// has room for.
+    fn scenes(&self, rule: &R, map: Map) -> impl Iterator<Item = Scene<R>> {
+        let placed = move |places| self.placed(places, rule, &map).into_iter().flatten();
+        placed(&self.starts).flat_map(move |starts| {
+            placed(&self.goals).map(move |goals| {
+                let mut map = map;
+                for &cell in starts.iter().chain(&goals) {
+                    map.note_cell(cell, true);
+                }
+                Self::scene(rule, &starts, goals, Some(&map))
+            })
         })
     }
 
@@ -202,22 +247,8 @@ impl<R: Rule> Setting<'_, R> {
     /// # Errors
     /// [`MethodError`] if the area, the number of robots or the number of layouts
     /// is too large, or a robot starts outside.
-    pub fn starts(&self, rule: &R) -> Result<Vec<Scene<R>>, MethodError> {
-        let why = format_args!("a team has 1 to {MOST_ROBOTS} robots, not {}", self.robots);
-        MethodError::unless((1..=MOST_ROBOTS).contains(&self.robots), why)?;
-        let mut scenes = Vec::new();
-        for map in self.ground.maps()? {
-            for starts in self.placed(&self.starts, rule, &map)? {
-                for goals in self.placed(&self.goals, rule, &map)? {
-                    let mut map = map;
-                    for &cell in starts.iter().chain(&goals) {
-                        map.note_cell(cell, true);
-                    }
-                    scenes.push(Self::scene(rule, &starts, goals, Some(&map)));
-                }
-            }
-        }
-        Ok(scenes)
+    pub fn starts(&self, rule: &R) -> Result<impl IntoIterator<Item = Scene<R>>, MethodError> {
+        Ok(self.maps(rule)?.into_iter().flat_map(|map| self.scenes(rule, map)))
     }
 
     fn scene(rule: &R, starts: &[Cell], goals: Vec<Cell>, map: Option<&Map>) -> Scene<R> {

@@ -39,6 +39,10 @@ fn verdict<R: Rule + PartialEq + 'static>(
     decided(rule, setting, demand).verdict
 }
 
+fn starts<R: Rule>(setting: &Setting<'_, R>, rule: &R) -> Vec<Scene<R>> {
+    setting.starts(rule).expect("they can be made").into_iter().collect()
+}
+
 fn run(answer: Answer) -> Run {
     match answer.counterexample.map(|found| found.seen) {
         Some(Depiction::Robots(run)) => *run,
@@ -147,11 +151,10 @@ fn blocked_cells_are_a_quantifier_and_so_are_layouts_of_a_kind() {
     assert_eq!(verdict(&Walk::Polite, &BAYS, 0), Verdict::Holds);
     let blind = run(decided(&Walk::Blind, &BAYS, 0));
     assert!(blind.obstacles.is_empty(), "the layout with the fewest blocked cells comes first: {blind:?}");
-    let starts = |setting: &Setting<'_, Walk>| setting.starts(&Walk::Polite).expect("they can be made");
     // Without a cell, or without one of the four in the corners or none at all, 3×3 cells stay biconnected: the ring
     // without its centre, and with a corner cut off.
     let layouts: Vec<Vec<Cell>> =
-        starts(&LOOPS).iter().filter_map(|scene| scene.map().map(Map::obstacles)).collect();
+        starts(&LOOPS, &Walk::Polite).iter().filter_map(|scene| scene.map().map(Map::obstacles)).collect();
     let mut kinds = layouts.clone();
     kinds.dedup();
     assert_eq!(kinds.len(), 1 + 4 + 1);
@@ -412,10 +415,10 @@ fn what_is_decided_as_it_is_met_is_what_is_decided_before() {
 fn robots_are_as_many_as_are_asked_for() {
     for (robots, scenes) in [(1, 3), (2, 3 * 2), (3, 3 * 2)] {
         let setting = Setting { robots, goals: Places::None, ..to_goals(3, 1, Moves::OneAtATime) };
-        assert_eq!(setting.starts(&Walk::Polite).expect("they can be made").len(), scenes);
+        assert_eq!(starts(&setting, &Walk::Polite).len(), scenes);
     }
     let none = Setting { robots: 0, ..to_goals(3, 1, Moves::OneAtATime) };
-    let refused = none.starts(&Walk::Polite).expect_err("no robots");
+    let refused = none.starts(&Walk::Polite).err().expect("no robots");
     assert_eq!(refused.to_string(), "a team has 1 to 16 robots, not 0");
 }
 
@@ -424,7 +427,7 @@ fn robots_are_as_many_as_are_asked_for() {
 fn a_world_is_a_body() {
     let outcome = |rule: Walk, seed: u64| -> Outcome {
         let playing = LANE.playing(&rule, &[Promise(0)]).expect("it can be played");
-        let starts = LANE.starts(&rule).expect("they can be made");
+        let starts = starts(&LANE, &rule);
         let mut answers = SeededOracle::new(seed, 0);
         let start = starts[seed as usize % starts.len()].clone();
         play(&playing, start, 50, &mut answers, |promise| playing.demand(promise).words)
@@ -440,7 +443,7 @@ fn a_world_is_a_body() {
 #[test]
 fn ways_that_lead_to_the_same_merge() {
     let playing = LANE.playing(&Walk::Polite, &[Promise(0)]).expect("it can be played");
-    let starts = LANE.starts(&Walk::Polite).expect("they can be made");
+    let starts = starts(&LANE, &Walk::Polite);
     let found = states::search(&playing, starts.clone(), states::Limits::NONE);
     assert!(found.is_whole && found.states <= (starts.len() * 4) as u64, "{found:?}");
 }

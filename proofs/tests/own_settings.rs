@@ -334,3 +334,18 @@ fn a_panic_names_the_clause_and_the_rule() {
     let refused = ledger::decide_all(&[&CLAUSE]).expect_err("a mutant panics").to_string();
     assert_eq!(refused, "CARE-1 panics for the rule \"careless\": the map has no cell 7");
 }
+
+/// Five robots apart have 3 billion starts on 9×9 cells, and as many goals of each: memory has room for neither.
+#[test]
+fn starts_are_made_as_there_is_memory_for_them() {
+    static MANY: Setting<'static, Walk> = Setting {
+        goals: Places::Distinct,
+        demands: &[Demand::always("WALK-1", "robots are apart", &|moved| moved.after.cells_differ())],
+        ..Setting::new("walk", Ground::open(9, 9), 5, Places::Distinct)
+    };
+    let (cache, watch, limit) = (&mut Cache::default(), &mut unwatched, MemoryLimit::of(1 << 20, 1));
+    let mut context = Context { cache, watch, memory: limit.asked("five robots apart") };
+    let answer = Keeps(&MANY, 0).decide(&Walk::Waits, Until::Exhausted, &mut context);
+    let answer = answer.expect("it can be decided");
+    assert_eq!(answer.verdict, Verdict::Open);
+}

@@ -96,8 +96,12 @@ impl<R: Rule> TeamWorld<'_, R> {
     }
 
     /// The evidence of a run that was found among the states.
-    fn evidence(&self, starts: &[Scene<R>], run: &states::Run<Promise>) -> Option<Evidence> {
-        let start = starts.get(run.start)?;
+    fn evidence(
+        &self,
+        starts: impl IntoIterator<Item = Scene<R>>,
+        run: &states::Run<Promise>,
+    ) -> Option<Evidence> {
+        let start = starts.into_iter().nth(run.start)?;
         let (played, last) = self.played(start.clone(), run);
         let (frames, titles) = played.into_iter().unzip();
         let ending = match run.ending {
@@ -130,18 +134,18 @@ impl<R: Rule> Keeps<'_, R> {
         rule: &R,
         limits: states::Limits<'_>,
     ) -> Result<Findings<&'static str>, MethodError> {
-        let Some((playing, starts)) = self.states(rule)? else { return Ok(Findings::NONE) };
-        Ok(states::search(&playing, starts, limits).told(|promise| playing.demand(promise).words))
+        let Some(playing) = self.states(rule)? else { return Ok(Findings::NONE) };
+        Ok(states::search(&playing, self.0.starts(rule)?, limits)
+            .told(|promise| playing.demand(promise).words))
     }
 
-    /// The team whose states are searched, with its starts; `None` without one.
-    #[expect(clippy::type_complexity, reason = "a team and its starts")]
-    fn states(&self, rule: &R) -> Result<Option<(TeamWorld<'_, R>, Vec<Scene<R>>)>, MethodError> {
-        let starts = self.0.starts(rule)?;
-        let Some(start) = starts.first().cloned() else { return Ok(None) };
+    /// The team whose states are searched; `None` without a start.
+    fn states(&self, rule: &R) -> Result<Option<TeamWorld<'_, R>>, MethodError> {
+        let mut starts = self.0.starts(rule)?.into_iter().peekable();
+        let Some(start) = starts.peek().cloned() else { return Ok(None) };
         let playing = self.0.playing_from(rule, &[Promise(self.1)], start)?;
-        states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
-        Ok(Some((playing, starts)))
+        states::repeats(&playing, starts).map_err(MethodError::new)?;
+        Ok(Some(playing))
     }
 }
 
@@ -181,14 +185,15 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
     }
 
     fn in_states(&self, rule: &R, context: &mut Context<'_, '_>) -> MethodResult {
-        let Some((playing, starts)) = self.states(rule)? else { return Ok(Answer::startless()) };
+        let Some(playing) = self.states(rule)? else { return Ok(Answer::startless()) };
         let limits = states::Limits { memory: context.memory, ..states::Limits::NONE };
         let mut hears = |looked_at| match looked_at % BETWEEN {
             0 => (context.watch)(&Progress::of_states(looked_at)),
             _ => ControlFlow::Continue(()),
         };
-        let found = states::watched(&playing, starts.iter().cloned(), limits, &mut hears);
-        let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));
+        let found = states::watched(&playing, self.0.starts(rule)?, limits, &mut hears);
+        let starts = self.0.starts(rule)?;
+        let evidence = found.broken.first().and_then(|run| playing.evidence(starts, run));
         Ok(Answer::of_states(evidence, &found, self.0.situations(), Verdict::Holds))
     }
 }
@@ -243,18 +248,19 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
     fn systems(&self, rule: &R) -> Result<Systems, MethodError> {
         let demand = Promise(self.1);
         let playing = self.0.playing(rule, &[demand])?;
-        let starts = match self.0.strategy() {
-            Strategy::Tree => vec![playing.start.clone()],
-            Strategy::States => self.0.starts(rule)?,
-        };
-        states::repeats(&playing, starts).map_err(MethodError::new)?;
+        match self.0.strategy() {
+            Strategy::Tree => states::repeats(&playing, [playing.start.clone()]),
+            Strategy::States => states::repeats(&playing, self.0.starts(rule)?),
+        }
+        .map_err(MethodError::new)?;
         Ok(vec![match self.0.strategy() {
             Strategy::Tree => {
                 Box::new(AllRuns::new(Box::new(self.0.search(rule, Until::Exhausted, &[])?), demand))
             }
             Strategy::States => {
-                let starts =
-                    |playing: &TeamWorld<'_, R>| playing.setting.starts(&playing.rule).unwrap_or_default();
+                let starts = |playing: &TeamWorld<'_, R>| {
+                    playing.setting.starts(&playing.rule).into_iter().flatten().collect()
+                };
                 Box::new(StatesModel::new(playing, starts))
             }
         }])
@@ -278,11 +284,12 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
             }
             Strategy::States => {
                 let playing = self.0.playing(rule, &wanted).map_err(|_| ScriptError::Unbroken)?;
-                let starts = self.0.starts(rule).map_err(|_| ScriptError::Unbroken)?;
+                let starts = || self.0.starts(rule).into_iter().flatten();
                 let mut script = Script::new(choices);
-                let number = script.choose(starts.len())?;
-                let (of, run) = script.play(&playing, (number, starts[number].clone()), |_| true)?;
-                let evidence = playing.evidence(&starts, &run).ok_or(ScriptError::Unbroken)?;
+                let number = script.choose(starts().count())?;
+                let start = starts().nth(number).ok_or(ScriptError::Unbroken)?;
+                let (of, run) = script.play(&playing, (number, start), |_| true)?;
+                let evidence = playing.evidence(starts(), &run).ok_or(ScriptError::Unbroken)?;
                 Ok(RefutationPlay { of, evidence })
             }
         }

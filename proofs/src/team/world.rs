@@ -57,9 +57,8 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand, or if states would be
     /// searched for several demands on endless runs.
     pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<TeamWorld<'a, R>, MethodError> {
-        let starts = self.starts(rule)?;
-        let start =
-            starts.into_iter().next().ok_or_else(|| MethodError::new("there is no layout to start in"))?;
+        let start = self.starts(rule)?.into_iter().next();
+        let start = start.ok_or_else(|| MethodError::new("there is no layout to start in"))?;
         self.playing_from(rule, wanted, start)
     }
 
