@@ -144,6 +144,13 @@ impl Row {
         self.undecided.is_none() && self.decision.is_as_registered(self.check)
     }
 
+    /// The verdict that it is registered with, if it did not come out so.
+    fn registered(&self) -> Option<String> {
+        let expected = self.check.expected().word();
+        let killed = if self.decision.survived.is_empty() { "" } else { ", and every mutant killed" };
+        (!self.is_as_registered()).then(|| format!("not as registered: {expected}{killed}"))
+    }
+
     /// The bound, and how many of its cases were given up.
     fn bound(&self) -> String {
         let bound = self.check.bound();
@@ -179,8 +186,8 @@ const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutant
 /// The column of the cases, which are numbers.
 const CASES: usize = 3;
 
-/// The ledger: a line for each check, and below it its bound and what is machine-checked beyond. What takes time is not
-/// in it, so that it is the same everywhere.
+/// The ledger: a line for each check, and below it its bound, whether it came out otherwise than it is registered, and
+/// what is machine-checked beyond. What takes time is not in it, so that it is the same everywhere.
 pub fn table(rows: &[Row]) -> String {
     let cells = |row: &Row| {
         let Decision { killed, survived, .. } = &row.decision;
@@ -202,9 +209,10 @@ pub fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let below = [("bound".to_owned(), Vec::new())]
-        .into_iter()
-        .chain(rows.iter().map(|row| (row.bound(), row.beyond(rows))));
+    let below = [("bound".to_owned(), Vec::new())].into_iter().chain(rows.iter().map(|row| {
+        let why = row.undecided.map(|undecided| undecided.to_string());
+        (row.bound(), [row.registered(), why].into_iter().flatten().chain(row.beyond(rows)).collect())
+    }));
     let mut text = String::new();
     for (line, (bound, beyond)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)
@@ -228,7 +236,7 @@ const WIDTH: usize = 80;
 
 /// `text` in lines that begin after `indent` columns and are broken behind commas and semicolons.
 pub fn indented(indent: usize, text: &str) -> String {
-    let width = WIDTH - indent;
+    let width = WIDTH.saturating_sub(indent);
     let mut before = ' ';
     let parts = text.split_inclusive(|letter: char| {
         let is_break = letter == ' ' && matches!(before, ',' | ';');

@@ -349,3 +349,21 @@ fn starts_are_made_as_there_is_memory_for_them() {
     let answer = answer.expect("it can be decided");
     assert_eq!(answer.verdict, Verdict::Open);
 }
+
+#[test]
+fn a_row_that_came_out_otherwise_says_how_it_is_registered() {
+    static LANE: Setting<'static, Walk> = walking(Ground::open(4, 1), CORNER);
+    static CLAUSE: Clause = Clause {
+        id: "WALK-OF-A-ROBOT-IN-A-LANE-OF-FOUR-CELLS-WITH-AN-ID-AS-LONG-AS-A-LINE-OF-THE-TABLE-1",
+        sentence: "A walk MUST end.",
+        checks: &[&Check::holds(
+            NamedRule::new("to and fro", Walk::ToAndFro),
+            &Keeps(&LANE, 0),
+            &[NamedRule::new("waits", Walk::Waits)],
+        )],
+    };
+    let table = ledger::table(&ledger::decide_all(&[&CLAUSE]).expect("it is decided"));
+    assert!(table.contains("not as registered: holds\n"), "{table}");
+    let refused = ledger::certificate(&CLAUSE, 1, Limits::NONE).expect_err("there is one check").to_string();
+    assert!(refused.ends_with("-1 has no check 1, counted from 0"), "{refused}");
+}

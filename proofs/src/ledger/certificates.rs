@@ -84,13 +84,15 @@ fn claim(clause: &Clause, number: usize) -> u128 {
     digest(format!("{:?}", (clause.id, clause.sentence, number, rule, engine, bound)).as_bytes())
 }
 
-/// The certificate of the check of `clause` with this number, which holds.
+/// The certificate of the check of `clause` with this number, from 0 on, which holds.
 ///
 /// # Errors
-/// [`MethodError`] if the check is none that searches all states or layouts, or finds something broken, or too much
-/// within `limits`.
+/// [`MethodError`] if there is no such check, if it is none that searches all states or layouts, or finds something
+/// broken, or too much within `limits`.
 pub fn certificate(clause: &Clause, number: usize, limits: Limits<'_>) -> Result<Vec<u8>, MethodError> {
-    let systems = clause.checks[number].systems()?;
+    let none = || MethodError::new(format_args!("{} has no check {number}, counted from 0", clause.id));
+    let check = clause.checks.get(number).ok_or_else(none)?;
+    let systems = check.systems()?;
     let sections = threads::each(&systems, |system| system.exhausted(limits));
     let sections = sections.into_iter().collect::<Result<Vec<_>, _>>().map_err(MethodError::new)?;
     let (sections, states): (Vec<Vec<u8>>, Vec<u64>) = sections.into_iter().unzip();
@@ -98,7 +100,7 @@ pub fn certificate(clause: &Clause, number: usize, limits: Limits<'_>) -> Result
         program: PROGRAM.to_owned(),
         clause: clause.id.to_owned(),
         check: number,
-        rule: clause.checks[number].rule().to_owned(),
+        rule: check.rule().to_owned(),
         claim: claim(clause, number),
         states: states.into_iter().sum(),
     };
