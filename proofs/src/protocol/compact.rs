@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use tautline_kernel::ground::{Cell, Side};
 
 /// Something that a state is made of, and its bytes.
+#[diagnostic::on_unimplemented(note = "`compact! {{ {Self} {{ field, … }} }}` makes a type of your own so")]
 pub trait Compact: Sized {
     /// Appends the bytes that tell it from every other value.
     fn write(&self, to: &mut Vec<u8>);
@@ -233,6 +234,17 @@ tuple!(A B C D E F);
 /// compact! { enum State { Idle, Waits(u8), Serves { robot: u8 } } }
 /// ```
 ///
+/// All parts are to be named:
+///
+/// ```compile_fail,E0004
+/// enum Phase {
+///     Idle,
+///     Wants,
+///     Done,
+/// }
+/// tautline_proofs::compact! { Phase: Idle, Wants }
+/// ```
+///
 /// An enum that it makes is `Clone`, `Eq`, `Ord`, `Hash` and `Debug`; one without fields is `Copy`, too. Its variants
 /// have at most three fields without a name.
 #[macro_export]
@@ -258,27 +270,6 @@ macro_rules! compact {
         $crate::compact! { $name: $(
             $variant $((one: $one $(, two: $two $(, three: $three)?)?))? $({ $($field),* })?
         ),* }
-    };
-    ($name:ident: $($variant:ident),* $(,)?) => {
-        const _: () = {
-            let mut number = 0;
-            $(
-                assert!($name::$variant as usize == number, "give the words in the order of the enum, numbered from 0");
-                number += 1;
-            )*
-            assert!(number <= 256, "an enum has at most 256 words");
-        };
-
-        impl $crate::protocol::Compact for $name {
-            fn write(&self, to: &mut Vec<u8>) {
-                to.push(*self as u8);
-            }
-
-            fn read(from: &mut &[u8]) -> Self {
-                let number: u8 = $crate::protocol::Compact::read(from);
-                [$(Self::$variant),*][usize::from(number)]
-            }
-        }
     };
     ($name:ident: $(
         $variant:ident
@@ -375,6 +366,13 @@ mod tests {
             Open { by },
     }
 
+    #[derive(PartialEq, Eq, Debug)]
+    enum Gate {
+        Left,
+        Right,
+    }
+    compact! { Gate: Right, Left }
+
     #[test]
     fn a_value_comes_back_from_its_bytes() {
         fn comes_back<T: Compact + PartialEq + std::fmt::Debug>(value: T, length: usize) {
@@ -396,6 +394,7 @@ mod tests {
         comes_back((BTreeSet::from([3_u8, 1]), (BTreeMap::from([(2_u8, true), (1, false)]),)), 3 + 5);
         comes_back((Lift(7, true), String::from("dock")), 2 + 5);
         comes_back([State::Idle, State::Waits(7), State::Meets(2, Light::On)], 1 + 2 + 3);
+        comes_back((Gate::Left, Gate::Right), 2);
         comes_back(State::Serves { robot: 3, at: Cell::new(0, 300) }, 6);
         comes_back((Door::Shut, Door::Opens(300, 1), Door::Open { by: "me".to_owned() }), 1 + 4 + 4);
     }
