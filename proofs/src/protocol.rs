@@ -61,6 +61,11 @@ pub trait Protocol: Clone + Sync + 'static {
     }
 
     /// The words for `state` in what is said of a protocol that is refused.
+    /// The words of `demand` in what is said and stored of it.
+    fn demand_words(&self, demand: &Demand<Self>) -> &'static str {
+        demand.words
+    }
+
     fn words(&self, state: &Self::State) -> String {
         format!("{state:?}")
     }

@@ -49,6 +49,8 @@ class Mail:
         """The mail with these messages, in one order whatever order they were sent in."""
         under_way = list(self.under_way)
         for letter in letters:
+            if not isinstance(letter, tuple) or len(letter) != 3:
+                raise TypeError(f"{letter!r} is no message: send tuples of a sender, a receiver, and what it says")
             insort(under_way, letter)
         return replace(self, under_way=tuple(under_way))
 

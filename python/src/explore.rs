@@ -37,9 +37,13 @@ pub(crate) fn rule(py: Python<'_>, scheme: Scheme, name: Option<&str>) -> PyResu
     })
 }
 
-/// A number of robots. Which of them a team has, its scheme says.
-pub(crate) fn robots(py: Python<'_>, robots: Option<Int>) -> PyResult<Option<u64>> {
-    Int::optional(robots, py, "robots", 0..=u16::MAX.into())
+/// A number of robots. Of a small one its scheme says in its own words that it is none of a team.
+pub(crate) fn robots(py: Python<'_>, scheme: Scheme, robots: Option<Int>) -> PyResult<Option<u64>> {
+    if let Some(Int(robots @ 0..=0xffff)) = robots {
+        return Ok(Some(robots as u64));
+    }
+    let (&least, &most) = (scheme.robots.start(), scheme.robots.end());
+    Int::optional(robots, py, "robots", least as u64..=most as u64)
 }
 
 fn probability(py: Python<'_>, name: &str, value: Option<f64>) -> PyResult<Option<Probability>> {
@@ -99,7 +103,7 @@ pub(crate) fn explore(
     };
     let seed = Int(seed).within(py, "seed", 0..=u64::MAX)?;
     let asked = ExplorationRequest {
-        robots: self::robots(py, robots)?,
+        robots: self::robots(py, scheme, robots)?,
         seed,
         base: base.map(|At(cell)| cell),
         starts: starts.0.into_iter().map(|At(cell)| cell).collect(),

@@ -110,7 +110,7 @@ pub(crate) fn hunt(
     let asked = HuntRequest {
         scheme,
         rule,
-        robots: self::robots(py, robots)?,
+        robots: self::robots(py, scheme, robots)?,
         size: size.transpose()?,
         budget: Int::optional(budget, py, "budget", 0..=u64::MAX)?,
         max_walls: Int::optional(max_walls, py, "max_walls", 0..=u32::MAX)?,

@@ -153,6 +153,10 @@ pub(crate) fn replay_protocol(
     patience_s: f64,
 ) -> PyResult<StateRun> {
     let script = Arc::new(StateScript::read(&rule)?);
+    if !path.exists() {
+        let what = format_args!("{}: there is no such file", path.display());
+        return Err(error(py, Kind::Input, what, "name a file that StateRun.store wrote"));
+    }
     script.script.work(py, patience_s, |py| {
         script.begin(py)?;
         let asked: Vec<DemandCheck> =

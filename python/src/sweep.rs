@@ -61,7 +61,7 @@ pub(crate) fn sweep(
     let rules = rules.collect::<PyResult<Vec<RuleId>>>()?;
     let limits = limits(py, until, max_moves)?;
     let robots = robots.map_or_else(|| vec![None], |List(robots)| robots.into_iter().map(Some).collect());
-    let robots = robots.into_iter().map(|robots| crate::explore::robots(py, robots));
+    let robots = robots.into_iter().map(|robots| crate::explore::robots(py, scheme, robots));
     let robots = robots.collect::<PyResult<Vec<_>>>()?;
     let List(layouts) = layouts;
     let seeds = seeds.0.into_iter().map(|seed| seed.within(py, "a seed", 0..=u64::MAX));

@@ -100,7 +100,10 @@ def test_a_run_that_was_stored_is_replayed_by_its_rule_alone(tmp_path):
         tautline.replay_protocol(Other(4, 2), path)
     with pytest.raises(tautline.InputError):
         found.store(path / "no" / "folder")
+    with pytest.raises(tautline.InputError, match="no such file; name a file that StateRun.store wrote"):
+        tautline.replay_protocol(Ring(4, 2), path / "none")
     text = path.read_text()
+    assert '"demand":"there is one privilege"' in text
     path.write_text(text.replace('"taken":0', '"taken":1', 1))
     with pytest.raises(tautline.InputError, match="store it again with StateRun.store"):
         tautline.replay_protocol(Ring(4, 2), path)
@@ -225,6 +228,11 @@ def test_a_demand_that_says_neither_yes_nor_no_is_refused(made, answer):
     rule = type("Wrong", (Lamp,), {"demands": (made("LAMP-5", "words", lambda *_: answer),)})
     with pytest.raises(RuleWrongType, match="LAMP-5"):
         tautline.decide_protocol(rule())
+
+
+def test_a_message_is_a_tuple():
+    with pytest.raises(TypeError, match="0 is no message: send tuples of a sender, a receiver"):
+        tautline.Mail().send(0, 1, "asks")
 
 
 @pytest.mark.parametrize("owed", [7, ["one"], [16]])

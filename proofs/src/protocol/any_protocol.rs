@@ -117,7 +117,7 @@ impl<P: Protocol> TypedProtocol<P> {
 
 impl<P: Protocol> AnyProtocol for TypedProtocol<P> {
     fn demand(&self) -> &'static str {
-        self.demand.words
+        self.rule.demand_words(self.demand)
     }
 
     fn may_be_endless(&self) -> bool {

@@ -9,7 +9,7 @@ use pyo3::types::PyTuple;
 use tautline_proofs::decide::MethodError;
 use tautline_proofs::demands;
 use tautline_proofs::engine::states::Bits;
-use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
+use tautline_proofs::protocol::{Bound as StateBound, Demand, Move, Protocol, set};
 
 use crate::arguments::List;
 use crate::diagnostic::{Kind, error, shown};
@@ -233,6 +233,10 @@ impl Protocol for ScriptCheck {
             drawing.extract().map_err(|_| wrong_answer("draw", &drawing, remedy))
         })
     }
+    fn demand_words(&self, _: &Demand<Self>) -> &'static str {
+        self.0.demands[self.1].words
+    }
+
 
     fn words(&self, &state: &u32) -> String {
         Python::attach(|py| shown(self.0.script.state(py, state).bind(py)))
