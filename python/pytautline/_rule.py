@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
+from inspect import getattr_static
 from typing import Any, Literal, TypeAlias
 
 from ._native import Moved
@@ -76,3 +78,15 @@ class Rule:
         met a wall in the last team move.
         """
         raise NotImplementedError("a rule has a step")
+
+
+def misspelt(rule: object, of: type) -> tuple[str, str] | None:
+    """An attribute of the rule that its class does not have, and the one of the class that it may be meant for.
+
+    Only those are meant that the rule leaves as they are: beside a ``step`` of its own it may have ``steps``.
+    """
+    left = [name for name, value in vars(of).items() if name[0] != "_" and getattr_static(rule, name, None) is value]
+    for name in sorted({name for name in dir(rule) if name[0] != "_"} - set(dir(of))):
+        for meant in get_close_matches(name, left, n=1, cutoff=0.8):
+            return name, meant
+    return None

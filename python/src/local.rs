@@ -17,7 +17,7 @@ use tautline_sim::trace::step;
 use crate::arguments::{At, List};
 use crate::diagnostic::{Kind, error, shown};
 use crate::hunt::verdict;
-use crate::script::{Script, attribute, kept, number, word, wrong_answer};
+use crate::script::{Script, attribute, is_rule_of, kept, number, word, wrong_answer};
 
 /// The most states of a robot, whose words are kept as long as the process.
 const MAX_STATES: usize = 256;
@@ -77,6 +77,7 @@ struct LocalScript {
 impl LocalScript {
     fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = rule.py();
+        is_rule_of(rule, "LocalRule")?;
         let name: String = attribute(rule, "name", "a name, such as \"written\"")?;
         let may_fail: bool = attribute(rule, "may_fail", "may_fail, True or False")?;
         let is_far_fine: bool = attribute(rule, "far_is_fine", "far_is_fine, True or False")?;

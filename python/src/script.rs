@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use pyo3::PyTypeInfo;
 use pyo3::exceptions::{PyAttributeError, PyException, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyTuple, PyType};
 use rayon::ThreadPoolBuilder;
 use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::set;
@@ -52,9 +52,43 @@ pub(crate) fn word(py: Python<'_>, what: &str, name: &str) -> PyResult<&'static 
     Err(error(py, Kind::Input, format_args!("{name:?} is no name"), remedy))
 }
 
-/// Refuses demands of which two have one id.
-pub(crate) fn distinct<'a>(py: Python<'_>, mut ids: impl Iterator<Item = &'a str>) -> PyResult<()> {
-    let mut known = BTreeSet::new();
+/// Refuses what is no rule of this class: a class in place of an instance, or an attribute that is nearly one of those
+/// that the rule leaves as they are.
+pub(crate) fn is_rule_of(rule: &Bound<'_, PyAny>, class: &str) -> PyResult<()> {
+    let py = rule.py();
+    if let Ok(given) = rule.cast::<PyType>() {
+        let what = format_args!("the rule is the class {}", given.name()?);
+        return Err(error(
+            py,
+            Kind::WrongType,
+            what,
+            format_args!("give an instance of it: {}()", given.name()?),
+        ));
+    }
+    let near = py.import("pytautline._rule")?.getattr("misspelt")?;
+    let found: Option<(String, String)> =
+        near.call1((rule, py.import("pytautline")?.getattr(class)?))?.extract()?;
+    found.map_or(Ok(()), |(name, meant)| {
+        let what = format_args!("the rule has {name}, which no {class} has");
+        Err(error(
+            py,
+            Kind::Input,
+            what,
+            format_args!("call it {meant}, or, if it is your own, by another name"),
+        ))
+    })
+}
+
+/// Refuses a rule without demands, or of which two have one id.
+pub(crate) fn are_demands<'a>(
+    py: Python<'_>,
+    ids: impl IntoIterator<Item = &'a str, IntoIter: ExactSizeIterator>,
+) -> PyResult<()> {
+    let (mut ids, mut known) = (ids.into_iter(), BTreeSet::new());
+    if ids.len() == 0 {
+        let remedy = "give the rule demands, made by pytautline.always and others";
+        return Err(error(py, Kind::Input, "nothing is demanded", remedy));
+    }
     match ids.find(|&id| !known.insert(id)) {
         Some(id) => {
             let what = format_args!("two demands have the id {id}");

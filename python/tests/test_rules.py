@@ -154,6 +154,21 @@ def test_the_last_move_of_a_longest_run_may_break_a_demand(longest_run, verdict)
     assert (found.verdict, [example.run.steps for example in found.counterexamples]) == (verdict, [3][verdict == "open":])
 
 
+@pytest.mark.parametrize(("wrong", "meant"), [("demand", "demands"), ("max_wals", "max_walls"), ("cover", "covers")])
+def test_an_attribute_that_is_nearly_one_of_a_rule_is_refused(wrong, meant):
+    change = {wrong: 3, meant: getattr(tautline.Rule, meant), "steps": 5, "leader": (0, 0)}
+    rule = type("Misspelt", (tautline.Rule,), {**vars(Walker), **change})
+    with pytest.raises(tautline.InputError, match=f"the rule has {wrong}, which no Rule has; call it {meant}, or"):
+        tautline.hunt_rule(rule())
+
+
+def test_a_rule_without_demands_and_a_class_in_its_place_are_refused():
+    with pytest.raises(tautline.InputError, match="nothing is demanded"):
+        tautline.hunt_rule(type("Modest", (Walker,), {"demands": []})())
+    with pytest.raises(RuleWrongType, match=r"the rule is the class Walker; give an instance of it: Walker\(\)"):
+        tautline.hunt_rule(Walker)
+
+
 def test_two_demands_of_one_id_are_refused():
     class Twice(Walker):
         demands = [*Walker.demands, tautline.always("WALK-1", "never", lambda moved: False)]

@@ -13,7 +13,9 @@ use tautline_proofs::protocol::{Bound as StateBound, Demand, Move, Protocol, set
 
 use crate::arguments::List;
 use crate::diagnostic::{Kind, error, shown};
-use crate::script::{Script, attribute, attribute_of, distinct, held, kept, word, wrong_answer};
+use crate::script::{
+    Script, are_demands, attribute, attribute_of, held, is_rule_of, kept, word, wrong_answer,
+};
 
 /// Different words of moves that a rule may have, which are kept as long as the process.
 const MAX_WORDS: usize = 256;
@@ -47,16 +49,13 @@ impl StateScript {
     /// The rule's description of itself.
     pub(super) fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = rule.py();
+        is_rule_of(rule, "Protocol")?;
         let name: String = attribute(rule, "name", "a name, such as \"written\"")?;
         let bound: String = attribute(rule, "bound", "a bound, in words, such as \"3 nodes\"")?;
         let List(demands): List<Bound<'_, PyAny>> =
             attribute(rule, "demands", "demands, a list of pytautline.Demand")?;
-        if demands.is_empty() {
-            let remedy = "give the rule demands, made by pytautline.always and others";
-            return Err(error(py, Kind::Input, "nothing is demanded", remedy));
-        }
         let demands = demands.iter().map(wanted).collect::<PyResult<Vec<_>>>()?;
-        distinct(py, demands.iter().map(|demand| demand.clause))?;
+        are_demands(py, demands.iter().map(|demand| demand.clause))?;
         Ok(Self {
             script: Script::new(rule, word(py, "name", &name)?),
             bound: kept(&bound),
@@ -233,10 +232,10 @@ impl Protocol for ScriptCheck {
             drawing.extract().map_err(|_| wrong_answer("draw", &drawing, remedy))
         })
     }
+
     fn demand_words(&self, _: &Demand<Self>) -> &'static str {
         self.0.demands[self.1].words
     }
-
 
     fn words(&self, &state: &u32) -> String {
         Python::attach(|py| shown(self.0.script.state(py, state).bind(py)))

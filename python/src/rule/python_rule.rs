@@ -14,7 +14,9 @@ use tautline_sim::trace::{self, letter};
 use super::team_move::TeamMove;
 use crate::arguments::{At, Int, List};
 use crate::diagnostic::{Kind, error, shown};
-use crate::script::{Script, attribute, attribute_of, distinct, held, kept, number, word, wrong_answer};
+use crate::script::{
+    Script, are_demands, attribute, attribute_of, held, is_rule_of, kept, number, word, wrong_answer,
+};
 
 /// The most robots of a rule written in Python.
 pub(super) const MAX_ROBOTS: usize = 8;
@@ -86,6 +88,7 @@ impl RuleScript {
     /// The rule's description of itself.
     pub(super) fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = rule.py();
+        is_rule_of(rule, "Rule")?;
         let scheme: String = attribute(rule, "scheme", "a scheme, the name of what it is a rule of")?;
         if CATALOGUE.scheme(&scheme).is_some() {
             let what = format!("{scheme} is a scheme of tautline");
@@ -97,7 +100,7 @@ impl RuleScript {
         let List(covers): List<(String, Py<PyAny>)> =
             attribute(rule, "covers", "covers, a list of names and functions of a move")?;
         let demands = demands.iter().map(demand).collect::<PyResult<Vec<Demand>>>()?;
-        distinct(py, demands.iter().map(|demand| demand.clause.as_str()))?;
+        are_demands(py, demands.iter().map(|demand| demand.clause.as_str()))?;
         if demands.len() > MAX_DEMANDS {
             let what = format_args!("{} demands", demands.len());
             return Err(error(py, Kind::Input, what, format_args!("give at most {MAX_DEMANDS}")));
