@@ -1,14 +1,13 @@
 //! All that the file of a rule is made with.
 
 pub(crate) use std::fmt;
-use std::iter;
 
 pub(crate) use tautline_kernel::ground::Side;
 pub(crate) use tautline_proofs::clause::{Check, Clause, NamedRule};
 pub(crate) use tautline_proofs::decide::{MethodError, Verdict};
 pub(crate) use tautline_proofs::engine::states::Bits;
 pub(crate) use tautline_proofs::protocol::{
-    Bound, Keeps, Letter, Mail, Move, Protocol, Ring, Start, Walker, combinations, names, set, with,
+    Bound, Keeps, Letter, Mail, Move, Protocol, Ring, Start, Walker, combinations, names, set, turned, with,
 };
 pub(crate) use tautline_proofs::team::{
     Crew, Deployment, Graph, Graphs, Kind, KnownGraph, Moves, Task, Teams, conflicts,
@@ -33,11 +32,6 @@ pub(crate) fn hang_together<T: PartialEq>(all: &[T], is_joined: impl Fn(&T, &T) 
 
 /// The steps in columns and rows of a robot that heads so, in quarter turns.
 pub(crate) const WAYS: [(i8, i8); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
-
-/// A state whose floor is turned by one, two and three quarters.
-pub(crate) fn turned<S>(state: &S, quarter: impl Fn(&S) -> S) -> Vec<S> {
-    iter::successors(Some(quarter(state)), |before| Some(quarter(before))).take(3).collect()
-}
 
 /// A floor of so many cells a side, with an arrow where a robot heads so.
 pub(crate) fn arrows(side: i8, heading: impl Fn(i8, i8) -> Option<u8>) -> String {

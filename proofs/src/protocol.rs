@@ -16,6 +16,7 @@ mod playing;
 mod ring;
 
 use std::fmt::Debug;
+use std::iter;
 
 pub use self::bound::Bound;
 pub use self::check::Keeps;
@@ -60,12 +61,12 @@ pub trait Protocol: Clone + Sync + 'static {
         self.words(state)
     }
 
-    /// The words for `state` in what is said of a protocol that is refused.
     /// The words of `demand` in what is said and stored of it.
     fn demand_words(&self, demand: &Demand<Self>) -> &'static str {
         demand.words
     }
 
+    /// The words for `state` in what is said of a protocol that is refused.
     fn words(&self, state: &Self::State) -> String {
         format!("{state:?}")
     }
@@ -158,6 +159,11 @@ pub fn with<T: Clone>(all: &[T], place: usize, new: T) -> Vec<T> {
     let mut all = all.to_vec();
     all[place] = new;
     all
+}
+
+/// A state whose floor is turned by one, two and three quarters.
+pub fn turned<S>(state: &S, quarter: impl Fn(&S) -> S) -> Vec<S> {
+    iter::successors(Some(quarter(state)), |before| Some(quarter(before))).take(3).collect()
 }
 
 /// When a demand is looked at.
