@@ -98,7 +98,7 @@ const COMMANDS: [(&str, &str); 15] = [
     (
         "minimise",
         "minimise chain-13-published-n3.jsonl --force
-         minimise hunted/lane-2-before-the-pull-request-states.jsonl",
+         minimise hunted/lane-1-before-the-pull-request-states.jsonl",
     ),
     (
         "rescue",

@@ -1,8 +1,9 @@
 //! Open-RMF's mutex group of a lane, and its release after replanning: rmf_ros2, issue 448 and pull request 490. Robots
-//! cross one lane from two bays. A robot locks the lane, enters, and releases it when it leaves. A robot in the lane
-//! may be told to plan anew; the first step of its new plan is to a midpoint of the lane, which belongs to no mutex
-//! group. The phase that moves it releases whatever the steps ahead do not need, and so the lane that it stands in.
-//! Mended, the phase releases nothing while the robot is at a midpoint.
+//! cross one lane from two bays. A robot locks the lane, enters, and releases it when it leaves; with the lock it
+//! enters without a look at who is in the lane. A robot in the lane may be told to plan anew; the first step of its new
+//! plan is to a midpoint of the lane, which belongs to no mutex group. The phase that moves it releases whatever the
+//! steps ahead do not need, and so the lane that it stands in: another robot may lock it and enter. Mended, the phase
+//! releases nothing while the robot is at a midpoint.
 
 use crate::prelude::*;
 
@@ -32,7 +33,8 @@ impl Protocol for Conditions {
     type Bound = Robots;
     type State = State;
     demands! {
-        always "one robot is in the lane", |_, _, _, (at, _)| at.iter().filter(|at| is_in_lane(at)).count() <= 1;
+        always "at most one robot is in the lane",
+            |_, _, _, (at, _)| at.iter().filter(|at| is_in_lane(at)).count() <= 1;
         eventually "every robot is across", |_, _, (places, _)| places.iter().all(|&place| place == Place::Across);
     }
     const COVERS: &'static [&'static str] = &["locks", "enters", "leaves", "plans anew"];
@@ -42,13 +44,12 @@ impl Protocol for Conditions {
     }
 
     fn moves(&self, _: &Robots, (places, holder): &State) -> Vec<Move<State>> {
-        let is_free = !places.iter().any(is_in_lane);
         let act = |(me, &place): (usize, &Place)| {
             let to = |place: Place, holder: Option<usize>| (with(places, me, place), holder);
             let left = |keeps: bool| holder.filter(|&holder| holder != me || keeps);
             let holds = *holder == Some(me) || !self.locks;
             let may_lock = place != Place::Across && holder.is_none() && self.locks;
-            let may_enter = place == Place::Bay && holds && (is_free || !self.locks);
+            let may_enter = place == Place::Bay && holds;
             let across = to(Place::Across, left(!self.releases));
             let anew = to(Place::Midpoint, left(self.keeps_at_midpoint));
             [
@@ -79,10 +80,11 @@ entry! { Conditions: "rmf-lane", "Open-RMF's lane mutex", "LANE",
     HOLDS_ON = "never releases", Conditions { releases: false, ..RULE };
     NO_LOCK = "no lock", Conditions { locks: false, ..RULE };
     1: "At most one robot MUST be in the lane." {
-        Holds MENDED within Robots::of(3), not NO_LOCK;
+        Refuted BEFORE within Robots::of(2);
+        Holds MENDED within Robots::of(3), not BEFORE, NO_LOCK;
     }
     2: "Every robot MUST come across." {
-        Refuted BEFORE within Robots::of(2);
-        Holds MENDED within Robots::of(3), not BEFORE, HOLDS_ON;
+        Holds BEFORE within Robots::of(3), not HOLDS_ON;
+        Holds MENDED within Robots::of(3), not HOLDS_ON;
     }
 }

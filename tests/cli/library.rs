@@ -17,7 +17,7 @@ fn a_rule_of_the_library_is_decided_stored_and_played_again() {
     let folder = &folder();
     let told = printed(folder, &["library", "rmf-lane", "--out", "found"], 0);
     assert_snapshot!("library_rule", told);
-    let stored = "found/lane-2-before-the-pull-request-states.jsonl";
+    let stored = "found/lane-1-before-the-pull-request-states.jsonl";
     let played = printed(folder, &["replay", stored], 1);
     let story =
         told.lines().skip_while(|line| !line.starts_with("start")).take_while(|line| !line.is_empty());
@@ -31,7 +31,7 @@ fn a_rule_of_the_library_is_decided_stored_and_played_again() {
     let ledger = json(folder, &["library", "rmf-lane", "RMF-SWAP"], 0);
     assert_eq!(
         (ledger["as_registered"].as_bool(), ledger["clauses"].as_array().map(Vec::len)),
-        (Some(true), Some(8))
+        (Some(true), Some(9))
     );
 }
 
