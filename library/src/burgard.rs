@@ -58,7 +58,7 @@ entry! { Exploration<Burgard>: "burgard", "coordinated exploration", "ASSIGN",
         Holds PUBLISHED within CREW, not FAR;
         Holds NO_COST within CREW, not FAR;
     }
-    2: "No two robots MUST set out for one frontier." {
+    2: "No two robots MUST set out for one frontier: a demand of ours." {
         Refuted PUBLISHED within CREW;
         Refuted GREEDY within CREW;
     }

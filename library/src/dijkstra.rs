@@ -73,6 +73,7 @@ entry! { Rule: "dijkstra", "K-state ring", "KSTATE",
      machines and states: Fokkink, Hoepman, Pang, *A Note on K-State Self-Stabilization in a Ring with K=N*, Nordic \
      Journal of Computing 12, 2005";
     PUBLISHED = "published", Rule::Published;
+    OUTSIDE = "published outside its premises", Rule::Published;
     UNIFORM = "uniform", Rule::Uniform;
     COUNTS_ON = "all count on", Rule::CountsOn;
     1: "One privilege MUST stay one." {
@@ -81,8 +82,8 @@ entry! { Rule: "dijkstra", "K-state ring", "KSTATE",
     2: "There MUST be exactly one privilege at some time, whatever the start." {
         Holds PUBLISHED within Machines::of(5, 5), not UNIFORM;
         Holds PUBLISHED within Machines::of(5, 4), not UNIFORM;
-        Refuted PUBLISHED within Machines::of(5, 3);
-        Refuted PUBLISHED within Machines::of(4, 2);
+        Refuted OUTSIDE within Machines::of(5, 3);
+        Refuted OUTSIDE within Machines::of(4, 2);
     } larger {
         Holds PUBLISHED within Machines::of(7, 7), not UNIFORM;
     }

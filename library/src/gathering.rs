@@ -65,13 +65,14 @@ entry! { Conditions: "gathering", "gathering with local vision", "GATHER",
     "Guilbault, Pelc, *Gathering Asynchronous Oblivious Agents with Local Vision in Regular Bipartite Graphs*, \
      Theoretical Computer Science 509, 2013";
     PUBLISHED = "published", RULE;
+    OUTSIDE = "published outside its premises", RULE;
     BLIND = "does not count", Conditions { counts: false, ..RULE };
     LEAVES = "leaves the middle", Conditions { stays_between: false, ..RULE };
     1: "All robots MUST come into one node, and stay." {
         Holds PUBLISHED within row(3, Moves::LookThenMove), not BLIND, LEAVES;
         Holds PUBLISHED within row(2, Moves::OneAtATime);
-        Refuted PUBLISHED within row(2, Moves::Together);
-        Refuted PUBLISHED within row(2, Moves::LookThenMove);
-        Refuted PUBLISHED within row(4, Moves::LookThenMove);
+        Refuted OUTSIDE within row(2, Moves::Together);
+        Refuted OUTSIDE within row(2, Moves::LookThenMove);
+        Refuted OUTSIDE within row(4, Moves::LookThenMove);
     }
 }

@@ -24,10 +24,14 @@ and stores the first that breaks a promise. A run that goes round for ever is fo
 all the same. With `--plan` and `--shards` the checks are dealt out among machines:
 see [shards.md](shards.md).
 
+*Outside its premises* is a rule as published where its source claims nothing of it: PIBT on floors with a dead end, as
+its Theorem 1 needs cycles; revised prioritised planning where starts and goals are not well-formed; the K-state ring
+with two states fewer than machines; Ricart–Agrawala with a lost message; gathering from a start that is no star.
+
 The models are ours: a file says how it reads its source, and a verdict is about that reading. PIBT and LaCAM break ties
-by the numbers of cells; the ring has the legitimate phase of its algorithm alone; Alpha's robots move on a grid. Not
-every demand is one that the source makes: some say what a reader may expect and the rule does not promise, such as that
-no two robots set out for one frontier.
+by the numbers of cells; the ring has the legitimate phase of its algorithm alone; Alpha's robots, and those of
+aggregation, move on cells, not on a plane. Not every demand is one that the source makes: some say what a reader may
+expect and the rule does not promise, such as that no two robots set out for one frontier; their sentences say so.
 
 A counterexample is a shortest one within the bound, one that goes round by its moves until it begins again; of those
 that are as short, one in the smallest layout. Robots are numbers; the letter behind is the robot whose goal the cell
@@ -145,7 +149,7 @@ fn drawings(entry: &Entry, rows: &[Row]) -> String {
         // Writing to a string cannot fail.
         let _ = write!(
             text,
-            "\n### {}\n\n{}, {}: refuted is that {}.\n\n```text\n{}```\n",
+            "\n### {}\n\n{}, {}: not so: {}.\n\n```text\n{}```\n",
             heading(entry, number),
             row.clause.id,
             row.check.rule(),

@@ -58,6 +58,7 @@ entry! { Pibt: "pibt", "PIBT", "PIBT",
     "Okumura, Machida, Défago, Tamura, *Priority Inheritance with Backtracking for Iterative Multi-agent Path \
      Finding*, IJCAI 2019, Algorithm 1 and Theorem 1; the reservation as in Artificial Intelligence 310, 2022";
     PUBLISHED = "published", PIBT;
+    OUTSIDE = "published outside its premises", PIBT;
     SWAPS = "pushes back", Pibt { has_no_swap: false, ..PIBT };
     ONE_TRY = "no backtracking", Pibt { backtracks: false, ..PIBT };
     FIXED = "fixed priorities", Pibt { rotates: false, ..PIBT };
@@ -67,7 +68,7 @@ entry! { Pibt: "pibt", "PIBT", "PIBT",
     }
     2: "Every robot MUST come to its goal at some time, again and again." {
         Holds PUBLISHED within SMALL, not FIXED;
-        Refuted PUBLISHED within DEAD_ENDS;
+        Refuted OUTSIDE within DEAD_ENDS;
         Refuted ONE_TRY within CROWDED;
         Refuted FIXED within SMALL;
     } larger {

@@ -81,6 +81,7 @@ entry! { PlannerProtocol<PriorityPlanner>: "prioritised", "prioritised planning"
      Selecký, *Prioritized Planning Algorithms for Trajectory Coordination of Multiple Mobile Robots*, IEEE T-ASE \
      12, 2015";
     REVISED = "revised", PlannerProtocol(RULE);
+    OUTSIDE = "revised outside its premises", PlannerProtocol(RULE);
     CLASSIC = "classic", PlannerProtocol(PriorityPlanner { leaves_out_starts: false, ..RULE });
     HASTY = "stays anywhere", PlannerProtocol(PriorityPlanner { can_stay: false, ..RULE });
     RUSHES = "never waits", PlannerProtocol(PriorityPlanner { waits: false, ..RULE });
@@ -91,7 +92,7 @@ entry! { PlannerProtocol<PriorityPlanner>: "prioritised", "prioritised planning"
     2: "A plan MUST be found." {
         Holds REVISED within tasks(Only::WellFormed), not RUSHES;
         Holds CLASSIC within tasks(Only::WellFormed), not RUSHES;
-        Refuted REVISED within tasks(Only::Solvable);
+        Refuted OUTSIDE within tasks(Only::Solvable);
     } larger {
         Holds CLASSIC within WIDE;
         Holds REVISED within WIDE;

@@ -95,6 +95,7 @@ entry! { Conditions: "ricart-agrawala", "Ricart–Agrawala", "MUTEX",
     "Ricart, Agrawala, *An Optimal Algorithm for Mutual Exclusion in Computer Networks*, Communications of the ACM \
      24, 1981";
     PUBLISHED = "published", RULE;
+    OUTSIDE = "published outside its premises", RULE;
     EAGER = "replies at once", Conditions { defers: false, ..RULE };
     TIES = "ties", Conditions { breaks_ties: false, ..RULE };
     1: "At most one node MUST be inside." {
@@ -105,6 +106,6 @@ entry! { Conditions: "ricart-agrawala", "Ricart–Agrawala", "MUTEX",
     }
     2: "Every node MUST get inside." {
         Holds PUBLISHED within Net::of(3, 0), not TIES;
-        Refuted PUBLISHED within Net::of(2, 1);
+        Refuted OUTSIDE within Net::of(2, 1);
     }
 }

@@ -59,7 +59,7 @@ entry! { Exploration<Yamauchi>: "yamauchi", "frontier-based exploration", "EXPLO
         Holds PUBLISHED within crew(3, 4, 3);
         Holds ROUND within crew(3, 4, 3);
     }
-    2: "No two robots MUST set out for one frontier." {
+    2: "No two robots MUST set out for one frontier: a demand of ours." {
         Refuted PUBLISHED within crew(2, 3, 3);
         Holds ROUND within crew(2, 3, 3), not PUBLISHED;
     }

@@ -17,7 +17,7 @@ LIBRARY = Path(__file__).parents[2] / "docs" / "library.md"
 
 def of_the_library(clause, bound):
     """The verdict and the states of the same rule in Rust, as the page of the library has them."""
-    row = rf"^\| {clause} \| published \| (\w+) \| {re.escape(bound)} \| (\d+) \|"
+    row = rf"^\| {clause} \| published(?: outside its premises)? \| (\w+) \| {re.escape(bound)} \| (\d+) \|"
     verdict, states = re.search(row, LIBRARY.read_text(), re.MULTILINE).groups()
     return verdict, int(states)
 

@@ -56,11 +56,11 @@ fn a_rule_is_hunted_by_random_runs_and_what_is_found_is_stored_replayed_and_mini
     let hunt = ["library", "ricart-agrawala", "--runs", "50", "--seed", "3", "--patience", "30"];
     let told = printed(folder, &[&hunt[..], &["--out", "found"]].concat(), 1);
     assert_snapshot!("library_hunt", told);
-    let stored = "found/mutex-2-published-states-2.jsonl";
+    let stored = "found/mutex-2-published-outside-its-premises-states.jsonl";
     assert_eq!(names(&folder.join("found")), [stored.strip_prefix("found/").expect("a name")]);
     printed(folder, &["replay", stored], 1);
     assert_snapshot!("library_minimise", printed(folder, &["minimise", stored], 0));
-    printed(folder, &["replay", "mutex-2-published-states-2-minimal.jsonl"], 1);
+    printed(folder, &["replay", "mutex-2-published-outside-its-premises-states-minimal.jsonl"], 1);
     // Its own clause can be named, in small letters, too; any other one is none of its.
     json(folder, &["minimise", stored, "--clause", "mutex-2"], 0);
     for none in [["--runs", "0"].as_slice(), &["--runs", "9", "--max-moves", "0"]] {
