@@ -221,10 +221,10 @@ fn find<'a>(
     let Header { clause: id, rule: name, engine, bound, .. } = header;
     let checks: Vec<Meant<'a>> = known.iter().copied().filter(|(clause, _)| clause.id == id).collect();
     if checks.is_empty() {
-        let mut known: Vec<&str> = known.iter().map(|(clause, _)| clause.id).collect();
-        known.dedup();
-        let remedy = format!("the clauses are {}", known.join(", "));
-        return Err(lines.fault(text, "clause", format_args!("there is no clause {id:?}"), remedy));
+        let what = format_args!("no rule that is known here has the clause {id:?}");
+        let remedy =
+            "play it by its own rule: `refutation::replay_by` does in Rust, and `replay_protocol` in Python";
+        return Err(lines.fault(text, "clause", what, remedy));
     }
     let fitting = |key: &str, what: &str, is: &dyn Fn(&dyn AnyCheck) -> bool, checks: Vec<Meant<'a>>| {
         let fitting: Vec<Meant<'a>> = checks.into_iter().filter(|&(_, check)| is(check)).collect();
