@@ -28,7 +28,7 @@ use crate::explore::{
 use crate::options::Options;
 
 pub use foreign::ForeignRun;
-pub(crate) use foreign::Player;
+pub(crate) use foreign::{Player, check_names};
 pub use line::StoredViolation;
 use line::{Header, Line, drawn};
 pub use summary::Summary;

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use insta::assert_snapshot;
 use tautline_io::atomic_file::Replaceable;
+use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::Depiction;
@@ -126,6 +127,23 @@ fn told(path: &Path, place: usize) -> String {
     let moves = fs::read_to_string(path).expect("a file");
     let told = story::last_move(&read).expect("a run");
     format!("{}\n{told}", moves.lines().skip(1).collect::<Vec<_>>().join("\n"))
+}
+
+#[test]
+fn a_run_is_not_stored_by_names_that_no_file_can_have() {
+    let row = &ledger::decide_all(&[&CLAUSES[0]]).expect("it can be searched")[0];
+    let found = row.decision.counterexample.as_ref().map(|evidence| &evidence.seen);
+    let Some(Depiction::Robots(run)) = found else { panic!("{found:?}") };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.jsonl");
+    let bridge = Setting { scheme: "my patrol", ..LATE };
+    for (setting, rule, wrong) in [(&LATE, "tells once", "tells once"), (&bridge, "listens", "my patrol")] {
+        let refused =
+            OwnRun { setting, rule: (rule, &LISTENS.rule), run }.store(&path, &Replaceable::default());
+        let Err(Halt::Diagnostic(fault)) = refused else { panic!("{wrong} is stored") };
+        assert!(fault.what().starts_with(&format!("{wrong:?} is no name")), "{}", fault.what());
+    }
+    assert!(!path.exists());
 }
 
 #[test]

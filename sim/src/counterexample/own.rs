@@ -4,13 +4,13 @@
 use std::path::Path;
 
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
-use tautline_io::diagnostic::Halt;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::run::{Ending, Run};
 use tautline_proofs::team::{Rule, Setting, Strategy};
 
 use crate::explore::hunt::layout as layout_of;
 use crate::explore::{ClauseId, End, Limits, Own, Report, Setup, TeamMove, Violation, run};
-use crate::trace::{Player, Writer};
+use crate::trace::{Player, Writer, check_names};
 
 /// A rule of one's own, in the layout of a run that was found.
 pub struct OwnRun<'a, R: Rule> {
@@ -27,8 +27,13 @@ impl<R: Rule> OwnRun<'_, R> {
     /// to a file at `path`, which `tautline replay` plays. The file has yet to be put in its place.
     ///
     /// # Errors
-    /// [`Halt`] if the area is too large for a layout, or a robot starts in a blocked cell.
+    /// [`Halt`] if the area is too large for a layout, a robot starts in a blocked cell, or a name is none that a file
+    /// can have: letters, digits and hyphens.
     pub fn store(&self, path: &Path, replaceable: &Replaceable) -> Result<(AtomicFile, Report), Halt> {
+        let names =
+            [("scheme", Some(self.setting.scheme)), ("rule", Some(self.rule.0)), ("clause", self.run.breaks)];
+        check_names(names)
+            .map_err(|(key, what)| Diagnostic::usage(what, format_args!("name the {key} otherwise")))?;
         let clause = self.run.breaks.map(ClauseId::new);
         let limits = Limits::stopping_at(clause);
         let (layout, starts) = layout_of(self.run)?;

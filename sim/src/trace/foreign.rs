@@ -160,17 +160,21 @@ fn starts(header: &ForeignHeader) -> Vec<Cell> {
     header.starts.clone().unwrap_or_else(|| vec![header.base; header.robots.into()])
 }
 
+/// Checks names, each by its key: else the key that is wrong, and what is wrong with it.
+pub(crate) fn check_names(names: [(&'static str, Option<&str>); 3]) -> Result<(), (&'static str, String)> {
+    for (key, name) in names {
+        if let Some(name) = name.filter(|name| !is_word(name)) {
+            let what = format!("{name:?} is no name: at most {MAX_WORD} letters, digits and hyphens");
+            return Err((key, what));
+        }
+    }
+    Ok(())
+}
+
 /// Checks what a header says of the team: else the key that is wrong, and what is wrong with it.
 fn check_header(header: &ForeignHeader, layout: &Layout) -> Result<(), (&'static str, String)> {
     let Header { scheme, rule, robots, clause, .. } = header;
-    for (key, name) in [("scheme", Some(scheme)), ("rule", Some(rule)), ("clause", clause.as_ref())] {
-        if let Some(name) = name.filter(|name| !is_word(name)) {
-            return Err((
-                key,
-                format!("{name:?} is no name: at most {MAX_WORD} letters, digits and hyphens"),
-            ));
-        }
-    }
+    check_names([("scheme", Some(scheme)), ("rule", Some(rule)), ("clause", clause.as_deref())])?;
     if !matches!(header.numbered_from, None | Some(0)) {
         return Err(("numbered_from", "robots count from 0".to_owned()));
     }
