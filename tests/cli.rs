@@ -192,7 +192,7 @@ fn the_repaired_rule_breaks_in_no_layout_with_four_walls() {
     let hunt = ["hunt", "--scheme", "chain", "--rule", "repaired", "--robots", "4", "--max-walls", "4"];
     assert_snapshot!(printed(folder, &hunt, 0), @r#"
     chain (repaired), 4 robots, at most 4 walls: 395682 runs, 9669112 team moves, 356 the longest
-    No clause is broken in any layout within this bound.
+    No clause that is looked for is broken in any layout within this bound.
     "#);
     assert_eq!(names(folder), [""; 0]);
 }

@@ -104,8 +104,8 @@ impl WorldHunt {
             return json!({ "found": [] });
         };
         let outcome = match (found.is_empty(), is_complete) {
-            (true, true) => "No clause is broken, whatever happens in which order.",
-            (true, false) => "No clause is broken so far.",
+            (true, true) => "No clause that is looked for is broken, whatever happens in which order.",
+            (true, false) => "No clause that is looked for is broken so far.",
             (false, _) => "The shortest order of events that breaks each clause:",
         };
         let order = |order: &Order| {

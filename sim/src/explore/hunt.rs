@@ -141,12 +141,15 @@ impl HuntRequest<'_> {
 /// that it had `covered` by then, if any: what it has found beyond those need not be the smallest.
 pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {
     match (found, is_whole, covered) {
-        ([], true, _) => "No clause is broken in any layout within this bound.".to_owned(),
+        ([], true, _) => "No clause that is looked for is broken in any layout within this bound.".to_owned(),
         ([], false, Some(covered)) => {
-            format!("No clause is broken in any layout {covered}; the hunt was ended before its bound.")
+            format!(
+                "No clause that is looked for is broken in any layout {covered}; the hunt was ended before its bound."
+            )
         }
         ([], false, None) => {
-            "No clause is broken so far; the hunt was ended before it had covered any layout.".to_owned()
+            "No clause that is looked for is broken so far; the hunt was ended before it had covered any layout."
+                .to_owned()
         }
         (_, true, _) => {
             "The smallest counterexample to each clause that is broken in any layout within this bound:"
