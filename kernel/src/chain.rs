@@ -1,5 +1,5 @@
 //! The recursive chain of robots [Kovács 2011, III: Algorithms 1 to 3]: a base, a leader that seeks the nearest
-//! unexplored cell, and followers between them that keep radio contact. Clauses CHAIN-1 to CHAIN-25.
+//! unexplored cell, and followers between them that keep radio contact. Clauses CHAIN-1 to CHAIN-28.
 //!
 //! [`Chain::plan`] says what the team intends; [`Chain::settle`] takes the answers of the world, or [`Chain::hear`] the
 //! messages of those who met them. The history that backtracking needs is the log of the robots' one-byte messages,

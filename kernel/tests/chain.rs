@@ -60,6 +60,10 @@ fn is_admitted(rule: Rule, grid: &SmallGrid, team: &[Cell], steps: &[Step]) -> b
         Step::Stay => false,
     };
     let others = |robot: usize| (1..team.len()).filter(move |&other| other != robot);
+    let is_exchanged = |robot: usize| {
+        let is_outside = team[robot] != base && to(robot) != base && team[robot] != to(robot);
+        is_outside && others(robot).any(|other| team[other] == to(robot) && to(other) == team[robot])
+    };
     steps[0] == Step::Stay
         && (1..team.len()).all(|robot| {
             let (is_leader, stays) = (robot + 1 == team.len(), steps[robot] == Step::Stay);
@@ -75,6 +79,7 @@ fn is_admitted(rule: Rule, grid: &SmallGrid, team: &[Cell], steps: &[Step]) -> b
                 && (!has(Condition::UnsureAhead) || is_sure || is_covered(to(robot - 1), team[robot]))
                 && (!has(Condition::Hold) || is_covered(to(robot - 1), team[robot]))
                 && (!has(Condition::Distinct) || !shares)
+                && (!has(Condition::NoExchange) || !is_exchanged(robot))
                 && (!has(full) || stays || !is_full)
         })
 }
@@ -87,7 +92,8 @@ fn a_team_move_is_admitted_if_each_of_the_conditions_says_so() {
     let mut told = [0; 2];
     for round in 0..4000 {
         let condition = Condition::ALL[round % Condition::ALL.len()];
-        let rule = [Rule::PUBLISHED, Rule::REPAIRED, Rule::REEL][round % 3];
+        let rule =
+            [Rule::PUBLISHED, Rule::REPAIRED, Rule::REEL, Rule::APART][round / Condition::ALL.len() % 4];
         let rule = if drawn.pick(2) == 0 { rule.without(condition) } else { rule };
         let mut grid = grid(9, 9);
         for edge in area.edges() {

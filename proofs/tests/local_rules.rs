@@ -73,6 +73,8 @@ fn the_conditions_of_the_chain_for_every_n() {
     contact without FullForLeader          holds    13 of 13 of 25, 837 cases
     contact without Unfold                 holds    13 of 13 of 25, 837 cases
     contact without Hold                   holds    13 of 13 of 25, 837 cases
+    contact without NoExchange             holds    13 of 13 of 25, 837 cases
+    contact without PartsAtOnce            holds    13 of 13 of 25, 837 cases
     crowding                               holds    0 of 0 of 1, 405672 cases
     crowding without FullForFollower       refuted  3 robots, 2 steps
     crowding without Distinct              refuted  3 robots, 1 steps

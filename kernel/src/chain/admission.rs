@@ -1,6 +1,6 @@
-//! Certified plans: the admission relation of a whole team move, decided in O(N) where a plan is returned (CHAIN-4,
-//! CHAIN-5). [`Chain::plan`](super::Chain::plan) returns nothing else, whoever made the plan. So the lemmas about the
-//! relation, CHAIN-1, CHAIN-2 and CHAIN-3, speak of every run of every planner.
+//! Certified plans: the admission relation of a whole team move, decided where a plan is returned (CHAIN-4, CHAIN-5),
+//! in O(N), or O(N²) where exchanges are forbidden. [`Chain::plan`](super::Chain::plan) returns nothing else, whoever
+//! made the plan. So the lemmas about the relation, CHAIN-1, CHAIN-2 and CHAIN-3, speak of every run of every planner.
 
 use super::plan::{mark_occupied, unmark_occupied};
 use super::rule::{Condition, Move, Role, Rule};
@@ -19,7 +19,8 @@ impl Rule {
             return false;
         }
         let is_distinct = !self.has(Condition::Distinct) || are_distinct(grid, team, steps);
-        is_distinct && self.admits_pairs(grid, team, steps) && self.admits_entries(grid, team, steps)
+        let is_apart = is_distinct && self.keeps_sides(team, steps);
+        is_apart && self.admits_pairs(grid, team, steps) && self.admits_entries(grid, team, steps)
     }
 
     /// The conditions on each robot and its neighbours.
@@ -37,6 +38,16 @@ impl Rule {
             behind = own;
             admits
         })
+    }
+
+    /// Whether no two robots in `team`, base first, exchange their cells by these `steps`, where this is forbidden.
+    pub(super) fn keeps_sides(&self, team: &[Cell], steps: &[Step]) -> bool {
+        let moves = |robot: usize| (team[robot], team[robot].after(steps[robot]));
+        let is_exchanged = |robot: usize| {
+            let (from, to) = moves(robot);
+            from != to && ![from, to].contains(&team[0]) && (1..robot).any(|other| moves(other) == (to, from))
+        };
+        !self.has(Condition::NoExchange) || !(2..team.len()).any(is_exchanged)
     }
 
     /// The conditions on cells that two others occupy.
@@ -68,8 +79,8 @@ impl Rule {
     }
 }
 
-/// Whether no two of the planned cells are the same, the base excepted.
-fn are_distinct(grid: &mut impl Grid, team: &[Cell], steps: &[Step]) -> bool {
+/// Whether no two of the planned cells are the same, the base excepted; of steps that stay, whether no two robots meet.
+pub(super) fn are_distinct(grid: &mut impl Grid, team: &[Cell], steps: &[Step]) -> bool {
     let planned = || team.iter().zip(steps).map(|(cell, &step)| cell.after(step));
     let outside = || planned().skip(1).filter(|&cell| cell != team[0]);
     let are_distinct = outside().all(|cell| {

@@ -441,14 +441,14 @@ mod tests {
     fn recursion<const ROBOTS: usize>(planner: &mut Planner<'_, SmallGrid, ROBOTS>, robot: usize) -> bool {
         let (ahead, behind) = (planner.planned(robot), robot - 1);
         if behind == 0 {
-            return planner.rule.admits_ahead(Move::stay(planner.base()), ahead);
+            return planner.rule.admits_ahead(Move::stay(planner.team[0]), ahead);
         }
         let at = planner.team[behind];
         let mut left = planner.candidates(behind).and(planner.rule.steps_ahead(at, ahead));
         while let Some(step) = planner.preferred(at, ahead, left).0 {
             left = left.without(step);
             let to = at.after(step);
-            let is_taken = to != planner.base()
+            let is_taken = to != planner.team[0]
                 && (robot..planner.team.len()).any(|other| planner.planned(other).to() == to);
             planner.steps[behind] = step;
             if !is_taken && recursion(planner, behind) {

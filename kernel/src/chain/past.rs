@@ -16,10 +16,7 @@ impl Past {
     /// The open entry before `entry` of a log in which each has the messages of so many `movers`: read backwards, every
     /// backtrack pairs with the nearest open move before it.
     pub(super) fn open_before(self, entry: u32, log: &[u8], movers: usize) -> Option<u32> {
-        let first = match self {
-            Self::Home => 0,
-            Self::Since(first) => first,
-        };
+        let first = if let Self::Since(first) = self { first } else { 0 };
         let mut taken_back = 0_u32;
         for index in (first..entry).rev() {
             if log.get(index as usize * movers).is_some_and(|&byte| Message::is_backtrack(byte)) {

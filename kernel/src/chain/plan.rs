@@ -68,7 +68,7 @@ pub(super) fn unmark_occupied(grid: &mut impl Grid, team: &[Cell]) {
     }
 }
 
-impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
+impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
     /// Makes the plan, and says what is looked at by then. `None` if the leader has no candidate that the others can
     /// follow, or the budget ends before one is found. Refused candidates of the leader become virtual obstacles.
     pub(super) fn make(self) -> (Option<[Step; ROBOTS]>, Looks) {
@@ -109,7 +109,7 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             let first = if count == 0 { Steps::NONE } else { Steps::only(Step::Cross(first[0])) };
             if let Some(step) = self.rule.may_enter(self.grid, Role::Leader, at, first).iter().next() {
                 self.steps[leader] = step;
-                if self.descend() {
+                if self.descend() && self.rule.keeps_sides(self.team, &self.steps) {
                     return true;
                 }
                 has_descended = true;
@@ -131,17 +131,11 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             leads = leads.with(step);
         }
         let enterable = self.rule.may_enter(self.grid, Role::Leader, at, leads);
-        let mut choices = None;
+        let mut choices = has_descended.then(|| Choices::new(self, leads));
         for &side in list {
             let step = replaced(side);
-            if !self.looks.is_over && enterable.has(step) {
-                self.steps[leader] = step;
-                if choices.is_none() && !has_descended && self.descend() {
-                    return true;
-                }
-                if choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step) {
-                    return true;
-                }
+            if !self.looks.is_over && enterable.has(step) && self.can_follow(step, leads, &mut choices) {
+                return true;
             }
             if self.rule.has(Condition::RefusedIsVirtual) {
                 self.grid.put_edge(EdgeMark::Virtual, Edge::new(at, side));
@@ -163,28 +157,25 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
         }
         let (list, count) = self.leader_list(at, leads, ControlFlow::Break(()));
         let mut choices = None;
-        for &side in &list[..count] {
-            let step = Step::Cross(side);
-            self.steps[leader] = step;
-            if choices.is_none() && self.descend() {
-                return true;
-            }
-            if choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step) {
-                return true;
-            }
-        }
-        false
+        list[..count].iter().any(|&side| self.can_follow(Step::Cross(side), leads, &mut choices))
+    }
+
+    /// Whether the others can follow the leader's `step`, one of its `leads`: by a descent, if there are no `choices`
+    /// yet, or by these.
+    fn can_follow(&mut self, step: Step, leads: Steps, choices: &mut Option<Choices<'a, ROBOTS>>) -> bool {
+        self.steps[self.team.len() - 1] = step;
+        let follow = choices.is_none() && self.descend()
+            || choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step);
+        follow && self.rule.keeps_sides(self.team, &self.steps)
     }
 
     /// PLN_N: the sides that the leader may cross, nearest to the frontier first, then away from the base
     /// ((P′−P)·P), then in direction order. If they are not to be continued, only those nearest to the frontier.
     fn leader_list(&mut self, at: Cell, steps: Steps, farther: ControlFlow<()>) -> ([Side; 4], usize) {
-        let base = self.base();
-        let outward = |side| match side {
-            Side::East => i32::from(at.x) - i32::from(base.x),
-            Side::South => i32::from(at.y) - i32::from(base.y),
-            Side::West => i32::from(base.x) - i32::from(at.x),
-            Side::North => i32::from(base.y) - i32::from(at.y),
+        let base = self.team[0];
+        let outward = |side| {
+            let (dx, dy) = (i32::from(at.x) - i32::from(base.x), i32::from(at.y) - i32::from(base.y));
+            [dx, dy, -dx, -dy][side as usize]
         };
         let mut list = [Side::East; 4];
         let mut count = 0_usize;
@@ -215,7 +206,7 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
         while let Some(robot) = planned.checked_sub(1) {
             let ahead = self.planned(planned);
             if robot == 0 {
-                closes = self.rule.admits_ahead(Move::stay(self.base()), ahead);
+                closes = self.rule.admits_ahead(Move::stay(self.team[0]), ahead);
                 break;
             }
             let at = self.team[robot];
@@ -241,7 +232,7 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
     /// Takes the cell that `robot` is to be in.
     fn claim(&mut self, robot: usize) {
         let to = self.team[robot].after(self.steps[robot]);
-        if self.rule.has(Condition::Distinct) && to != self.base() {
+        if self.rule.has(Condition::Distinct) && to != self.team[0] {
             self.grid.put(CellMark::Planned, to);
         }
     }

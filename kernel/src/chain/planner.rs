@@ -91,10 +91,6 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         (nearest.iter().next(), looks)
     }
 
-    pub(super) fn base(&self) -> Cell {
-        self.team[0]
-    }
-
     pub(super) fn planned(&self, robot: usize) -> Move {
         self.as_move(robot, self.steps[robot])
     }

@@ -75,6 +75,9 @@ impl<const ROBOTS: usize> Reel<ROBOTS> {
     /// Nothing begun.
     pub(super) const NONE: Self = Self { task: Task::None, left: 0, doublings: 0, walk: Walk::NONE };
 
+    /// The latest team move is taken back, the first time since the last gain.
+    pub(super) const TAKE_BACK: Self = Self { task: Task::TakeBack, left: 1, doublings: 1, ..Self::NONE };
+
     /// One team move of the task is made, which gained nothing; `leader` is where the leader is.
     pub(super) fn went_on(&mut self, leader: Cell) {
         self.left = self.left.saturating_sub(1);

@@ -32,6 +32,10 @@ conditions! {
         /// Ours: a follower plans to be in E_C of the present position ahead, also where the robot ahead is sure to
         /// arrive: P′_i ∈ E_C(P_{i+1}). So contact holds whichever robots do not go, and in whatever order they go.
         Hold,
+        /// Ours: no two robots plan to exchange their cells, neither being the base.
+        NoExchange,
+        /// Ours: the reel takes a team move that brought two robots into one cell, the base excepted, back at once.
+        PartsAtOnce,
     }
 }
 
@@ -148,15 +152,18 @@ impl Rule {
     };
 
     /// The chain with the four repairs: of contact, of crowding, of what is left unexplored, and of what a plan costs.
-    pub const REPAIRED: Self = Self {
-        conditions: Conditions::of(&Condition::ALL).without(Condition::Hold),
-        budget: Budget::LooksPerRobot(100),
-        ..Self::PUBLISHED
-    };
+    pub const REPAIRED: Self = Self { pursuit: Pursuit::Epochs, ..Self::REEL.without(Condition::Hold) };
 
     /// The repaired chain that reels itself in and out instead of backtracking, and holds contact whoever fails.
-    pub const REEL: Self =
-        Self { pursuit: Pursuit::Reel(Habits::of(&Habit::ALL)), ..Self::REPAIRED.with(Condition::Hold) };
+    pub const REEL: Self = Self::APART.without(Condition::NoExchange).without(Condition::PartsAtOnce);
+
+    /// The reel whose robots keep apart: they exchange no cells, and two that a wall has brought into one part at once.
+    pub const APART: Self = Self {
+        conditions: Conditions::of(&Condition::ALL),
+        budget: Budget::LooksPerRobot(100),
+        pursuit: Pursuit::Reel(Habits::of(&Habit::ALL)),
+        ..Self::PUBLISHED
+    };
 
     /// Whether R_i, or the base, may plan `own` while the robot ahead of it plans `ahead`.
     #[inline]

@@ -84,11 +84,8 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
         let at = self.team[robot - 1];
         let steps = self.left[robot - 1].and(self.rule.steps_ahead(at, own));
         let to = own.to();
-        if self.rule.has(Condition::Distinct) && to != self.team[0] {
-            steps.minus(steps_to(to, at))
-        } else {
-            steps
-        }
+        let is_taken = self.rule.has(Condition::Distinct) && to != self.team[0];
+        if is_taken { steps.minus(steps_to(to, at)) } else { steps }
     }
 
     /// The cost of a step of the robot behind `robot`, and of all behind it, if `robot` does its `own`.
@@ -157,7 +154,7 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
         for (claimed, &step) in steps.iter().enumerate().take(leader + 1).skip(robot + 1) {
             grid.take(CellMark::Planned, planned(claimed, step));
         }
-        (robot == 0).then_some(steps)
+        (robot == 0 && self.rule.keeps_sides(self.team, &steps)).then_some(steps)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The state of a chain, and the two calls that make a team move of it.
 
 use super::MAX_ROBOTS;
+use super::admission::are_distinct;
 use super::habit::Habits;
 use super::message::{Damage, Message, Outcome};
 use super::past::Past;
@@ -298,6 +299,13 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             self.reel = Reel::NONE;
         }
         let team = &self.cells[..self.robots];
+        if let Some(entry) = self.last_open
+            && self.rule.has(Condition::PartsAtOnce)
+            && !are_distinct(&mut self.grid, team, &[Step::Stay; ROBOTS])
+        {
+            self.reel = Reel::TAKE_BACK;
+            return self.backtrack(log, entry).map(Intent::Go);
+        }
         let (steps, looks) = Planner::<G, ROBOTS>::new(&self.rule, &mut self.grid, team, self.looks).touch();
         self.looks = looks;
         if let Some(steps) = steps {

@@ -138,9 +138,9 @@ impl Belief {
     }
 
     /// The place of an object that the robot sees at `distance_m` and at `bearing_rad` from its heading. **The bearing
-    /// turns from +x towards −y, against the heading**: where y goes to the north or the left, as in ROS, it is positive
-    /// to the right, and a bearing that is positive to the left has to be negated. A robot that is known to be at the
-    /// origin with heading 0 has the object at (d cos θ, −d sin θ) (Rajesh et al. 2024, 4.5).
+    /// turns from +x towards −y, against the heading**: where y goes to the north or the left, as in ROS, it is
+    /// positive to the right, and a bearing that is positive to the left has to be negated. A robot that is known to
+    /// be at the origin with heading 0 has the object at (d cos θ, −d sin θ) (Rajesh et al. 2024, 4.5).
     pub fn sees(&self, bearing_rad: f64, distance_m: f64, sight: &SightError) -> Sighting {
         let angle = self.heading_rad - bearing_rad;
         let (cosine, sine) = (libm::cos(angle), libm::sin(angle));

@@ -1,19 +1,19 @@
-//! The reel against the repaired chain, with and without *Hold*, on the same layouts: team moves to 50 % and 75 % of
-//! the cells, to everything within reach, and of whole runs, and how many cells they explore. Sums are whole numbers,
-//! so that the result is the same on any number of threads.
+//! The reel against the repaired chain, with and without *Hold*, and with robots that keep apart, on the same layouts:
+//! team moves to 50 % and 75 % of the cells, to everything within reach, and of whole runs, and how many cells they
+//! explore. Sums are whole numbers, so that the result is the same on any number of threads.
 
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::links::within_reach;
 
 use super::prelude::*;
-use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
+use tautline_sim::explore::chain::{APART, CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{Milestone, Report, RuleId, Setup, explore};
 
 /// The team of the paper.
 const ROBOTS: u16 = 8;
 
 /// The rules; the first is what the others are compared with.
-const RULES: [RuleId; 3] = [RuleId::REPAIRED, REEL, UNHELD];
+const RULES: [RuleId; 4] = [RuleId::REPAIRED, REEL, UNHELD, APART];
 
 /// The grounds, as generators of layouts. The two buildings are one layout each.
 const GROUNDS: [&str; 10] = [
@@ -135,7 +135,7 @@ impl Table for Reel {
             id: "reel",
             shows: "the reel against the repaired chain on the same layouts: mean team moves to 50 %, to 75 %, and to \
                     everything within reach, and the cells that it explores",
-            help: "How many team moves the reel saves, and what holding contact costs",
+            help: "How many team moves the reel saves, and what holding and keeping apart cost",
             examples: &["reel", "reel --runs 1000 --format json"],
             doing: "comparing",
             takes: "some seconds",
@@ -220,7 +220,7 @@ fn moves<'a>(goal: &str, lines: impl Iterator<Item = &'a Line>) -> String {
             .right("ratio", 15, move |line| line.rules[place].ratio())
             .right("slower", 7, move |line| line.rules[place].slower);
     }
-    columns.right("reached/runs", 15, reached).text()
+    columns.right("reached/runs", 27, reached).text()
 }
 
 /// The cells that runs explore, for people.

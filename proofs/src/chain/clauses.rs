@@ -1,8 +1,8 @@
 //! The clauses of the chain, in the order of `SPEC.md`.
 
 use tautline_kernel::chain::Condition::{
-    CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, Hold, RefusedIsVirtual,
-    SafeAhead, Unfold, UnsureAhead,
+    CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, Hold, NoExchange, PartsAtOnce,
+    RefusedIsVirtual, SafeAhead, Unfold, UnsureAhead,
 };
 use tautline_kernel::chain::{Budget, Condition, Habit, Rule};
 use tautline_kernel::ground::Circle;
@@ -27,6 +27,7 @@ pub(super) const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Sub
 pub(super) const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::REPAIRED);
 const UNCOVERED: NamedRule<Subject> = NamedRule::new("uncovered", Subject::UNCOVERED);
 pub(super) const REEL: NamedRule<Subject> = NamedRule::new("reel", Subject::REEL);
+pub(super) const APART: NamedRule<Subject> = NamedRule::new("apart", Subject::APART);
 pub(super) const UNHELD: NamedRule<Subject> = NamedRule::new("unheld", Subject::UNHELD);
 const SPARING: NamedRule<Subject> = NamedRule::new("sparing", Subject::SPARING);
 
@@ -46,6 +47,8 @@ pub(super) const fn lacking(subject: Subject, condition: Condition) -> NamedRule
         FullForLeader => "without full cell for the leader",
         Unfold => "without unfolding",
         Hold => "without hold",
+        NoExchange => "without exchange forbidden",
+        PartsAtOnce => "without parting at once",
     };
     NamedRule::new(name, subject.without(condition))
 }
@@ -157,6 +160,17 @@ pub(super) const fn unheld(reel: NamedRule<Subject>) -> NamedRule<Subject> {
     NamedRule::new(reel.name, Subject { intended: Subject::UNHELD.rule, ..reel.rule.without(Hold) })
 }
 
+/// Followers kept nearer than the planners reckon with.
+pub(super) const fn narrowed(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("E_S narrowed to E_N", subject.with_safe(NARROWER))
+}
+
+/// The mutant of a reel, as one whose robots keep apart.
+pub(super) const fn apart(reel: NamedRule<Subject>) -> NamedRule<Subject> {
+    let rule = reel.rule.rule.with(NoExchange).with(PartsAtOnce);
+    NamedRule::new(reel.name, Subject { intended: Subject::APART.rule, ..reel.rule.following(rule) })
+}
+
 /// A reel that claims to hold contact whoever stays.
 pub(super) const NOT_HELD: NamedRule<Subject> = lacking(Subject::REEL, Hold);
 
@@ -222,6 +236,7 @@ pub const CLAUSES: [Clause; 15] = [
             ),
             &Check::holds(UNHELD, &fewer_walls(Invariant::CONTACT), &[lacking(Subject::UNHELD, UnsureAhead)]),
             &Check::holds(REEL, &fewer_walls(Invariant::CONTACT), &[lacking(Subject::REEL, SafeAhead)]),
+            &Check::holds(APART, &fewer_walls(Invariant::CONTACT), &[lacking(Subject::APART, SafeAhead)]),
             &Check::holds(
                 in_contact::<false>(REPAIRED),
                 &EveryNumber::DEFAULT,
@@ -257,6 +272,7 @@ pub const CLAUSES: [Clause; 15] = [
                 &four_robots(Invariant::CROWDING),
                 &[lacking(Subject::REEL, Distinct), lacking(Subject::REEL, FullForLeader)],
             ),
+            &Check::holds(APART, &fewer_walls(Invariant::CROWDING), &[lacking(Subject::APART, Distinct)]),
             &Check::holds(
                 uncrowded(REPAIRED),
                 &EveryNumber::DEFAULT,
@@ -334,6 +350,11 @@ pub const CLAUSES: [Clause; 15] = [
                 &[lacking(Subject::REEL, SafeAhead), lacking(Subject::REEL, CoveredBehind)],
             ),
             &Check::holds(REEL, &EveryLayout(Invariant::Admitted, FIVE_TWO_WALLS), &[NOT_HELD]),
+            &Check::holds(
+                APART,
+                &fewer_walls(Invariant::Admitted),
+                &[lacking(Subject::APART, SafeAhead), lacking(Subject::APART, NoExchange)],
+            ),
         ],
     },
     Clause {
@@ -447,6 +468,7 @@ pub const CLAUSES: [Clause; 15] = [
                 &[lacking(Subject::UNHELD, Distinct)],
             ),
             &Check::holds(REEL, &fewer_walls(Invariant::COMPLETENESS), &[lacking(Subject::REEL, Distinct)]),
+            &Check::holds(APART, &fewer_walls(Invariant::COMPLETENESS), &[narrowed(Subject::APART)]),
         ],
     },
     Clause {

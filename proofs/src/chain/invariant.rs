@@ -87,15 +87,17 @@ impl Invariant {
     pub const OF_RUNS: [Self; 5] =
         [Self::CONTACT, Self::CROWDING, Self::COVERAGE, Self::COMPLETENESS, Self::Ends];
 
-    /// Those that a hunt looks for in the runs of a chain that claims to follow `rule`. CHAIN-14, CHAIN-27 and CHAIN-28
-    /// no rule keeps, so that every hunt would end with them; and of advances CHAIN-27 follows from CHAIN-5 in any
-    /// layout.
+    /// Those that a hunt looks for in the runs of a chain that claims to follow `rule`. CHAIN-14 no rule keeps, and
+    /// CHAIN-27 and CHAIN-28 one, so that every other hunt would end with them; and of advances CHAIN-27 follows from
+    /// CHAIN-5 in any layout.
     pub fn of_hunts(rule: &Rule) -> Vec<Self> {
         let of_reels = match rule.pursuit {
             Pursuit::Reel(_) => Some(Self::Short),
             Pursuit::Epochs => None,
         };
-        Self::OF_RUNS.into_iter().chain(of_reels).collect()
+        let meets = rule.has(Condition::PartsAtOnce).then_some(Self::Meets);
+        let exchanges = rule.has(Condition::NoExchange).then_some(Self::Exchanges);
+        Self::OF_RUNS.into_iter().chain(of_reels).chain(meets).chain(exchanges).collect()
     }
 
     /// Those of plans and what is said of them.
@@ -127,6 +129,9 @@ impl Invariant {
             (Self::Certified, ..) => &[Self::Certified],
             (Self::AnyOrder, ..) => &[Self::AnyOrder],
             (Self::Chosen, ..) => &[Self::Chosen],
+            (Self::Meets | Self::Exchanges, ..) if rule.has(Condition::NoExchange) => {
+                &[Self::Meets, Self::Exchanges]
+            }
             (Self::Meets, ..) => &[Self::Meets],
             (Self::MeetsInAdvance, ..) => &[Self::MeetsInAdvance],
             (Self::Exchanges, ..) => &[Self::Exchanges],
@@ -271,6 +276,8 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
                 )?;
             }
         }
+        let exchanged = demanded(Condition::NoExchange) && exchange(present, &planned);
+        require(!exchanged, "no two robots plan to exchange their cells")?;
         let all_virtual = known(leader, EdgeMark::Virtual);
         require(!all_virtual, "the leader does not cross a virtual obstacle")
     }

@@ -1,14 +1,14 @@
 //! The clauses of what is ours in the chain: certified plans, the reel, contact in any order, and faults. They
 //! follow those of [`super::clauses`] in the order of `SPEC.md`.
 
-use tautline_kernel::chain::Condition::{CoveredBehind, Hold, SafeAhead};
+use tautline_kernel::chain::Condition::{CoveredBehind, Hold, NoExchange, SafeAhead};
 use tautline_kernel::chain::{Habit, Pursuit, Rule, Walls};
 
 use super::appearing_walls::{self, WallsCase};
 use super::barrier::{self, Reading};
 use super::clauses::{
-    AREAS, FICKLE, FIVE_TWO_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD, UNREHEARSED, fewer_walls,
-    in_contact, lacking, unheld,
+    APART, AREAS, FICKLE, FIVE_TWO_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD, UNREHEARSED, apart,
+    fewer_walls, in_contact, lacking, narrowed, unheld,
 };
 use super::death::{self, Aftermath, DeathCase};
 use super::every_area::EveryArea;
@@ -37,6 +37,10 @@ step_checks! { Subject;
 const FOUR_TWO_WALLS: (usize, u32) = (4, 2);
 const THREE_FOUR_WALLS: (usize, u32) = (3, 4);
 const THREE_FIVE_WALLS: (usize, u32) = (3, 5);
+const THREE_ONE_WALL: (usize, u32) = (3, 1);
+
+/// The reason why CHAIN-24 is broken.
+const NO_ARGUMENT: &str = "N² is no result of an argument";
 
 const NO_NEARER: NamedRule<Subject> = NamedRule::new(
     "an approach gets no nearer",
@@ -45,11 +49,7 @@ const NO_NEARER: NamedRule<Subject> = NamedRule::new(
 const TAKES_BACK_ONE: NamedRule<Subject> =
     NamedRule::new("take-backs always of one", Subject::REEL.without_habits(&[Habit::Doubles]));
 
-/// Followers kept nearer than the planners reckon with.
-const fn narrowed(subject: Subject) -> NamedRule<Subject> {
-    NamedRule::new("E_S narrowed to E_N", subject.with_safe(NARROWER))
-}
-
+/// Followers kept nearer than the planners reckon with, in unrehearsed tasks.
 const NARROWED_UNREHEARSED: NamedRule<Subject> =
     NamedRule::new("tasks are not rehearsed, E_S narrowed to E_N", UNREHEARSED.rule.with_safe(NARROWER));
 
@@ -191,6 +191,11 @@ pub const CLAUSES: [Clause; 10] = [
                 &fewer_walls(Invariant::Certified),
                 &[NARROWED_UNREHEARSED, lacking(Subject::REEL, SafeAhead)],
             ),
+            &Check::holds(
+                APART,
+                &fewer_walls(Invariant::Certified),
+                &[lacking(Subject::APART, SafeAhead), lacking(Subject::APART, NoExchange)],
+            ),
         ],
     },
     Clause {
@@ -208,6 +213,7 @@ pub const CLAUSES: [Clause; 10] = [
                 &[UNREHEARSED, FICKLE, NO_NEARER, TAKES_BACK_ONE],
             ),
             &Check::holds(REEL, &fewer_walls(Invariant::Ends), &[UNREHEARSED, FICKLE, NO_NEARER]),
+            &Check::holds(APART, &fewer_walls(Invariant::Falls), &[apart(UNREHEARSED), apart(FICKLE)]),
         ],
     },
     Clause {
@@ -229,6 +235,7 @@ pub const CLAUSES: [Clause; 10] = [
             &hold::CHECK,
             // Without hold four robots keep contact in any order among so few walls.
             &Check::holds(REEL, &fewer_walls(Invariant::AnyOrder), &[lacking(Subject::REEL, SafeAhead)]),
+            &Check::holds(APART, &fewer_walls(Invariant::AnyOrder), &[lacking(Subject::APART, SafeAhead)]),
             &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FIVE_TWO_WALLS), &[NOT_HELD]),
             &Check::unrefuted(
                 REEL,
@@ -264,6 +271,7 @@ pub const CLAUSES: [Clause; 10] = [
         checks: &[
             &Check::holds(UNHELD, &fewer_walls(Invariant::Doubles), &[unheld(TAKES_BACK_ONE)]),
             &Check::holds(REEL, &fewer_walls(Invariant::Doubles), &[TAKES_BACK_ONE]),
+            &Check::holds(APART, &fewer_walls(Invariant::Doubles), &[apart(TAKES_BACK_ONE)]),
         ],
     },
     Clause {
@@ -274,8 +282,8 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::holds(UNHELD, &fewer_walls(Invariant::Short), &[unheld(IN_EPOCHS), unheld(UNREHEARSED)]),
             &Check::holds(REEL, &fewer_walls(Invariant::Short), &[IN_EPOCHS]),
             &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[IN_EPOCHS]),
-            &Check::refuted(REEL, &EveryLayout(Invariant::Short, THREE_FIVE_WALLS))
-                .because("N² is no result of an argument, and not enough for five walls"),
+            &Check::refuted(REEL, &EveryLayout(Invariant::Short, THREE_FIVE_WALLS)).because(NO_ARGUMENT),
+            &Check::refuted(APART, &EveryLayout(Invariant::Short, THREE_ONE_WALL)).because(NO_ARGUMENT),
         ],
     },
     Clause {

@@ -2,20 +2,28 @@
 //! (II.E), when two robots arrive in one cell, and how far from each other they are (III.D). They follow those of
 //! [`super::own_clauses`].
 
-use tautline_kernel::chain::Condition::Distinct;
+use tautline_kernel::chain::Condition::{Distinct, NoExchange, PartsAtOnce};
 
-use super::clauses::{AREAS, PUBLISHED, REEL, REPAIRED, fewer_walls, lacking};
+use super::clauses::{APART, AREAS, PUBLISHED, REEL, REPAIRED, fewer_walls, lacking};
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::milestones::Milestone;
 use super::subject::Subject;
-use crate::clause::{Check, Clause};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::engine::smallest::Most;
 
-/// The reason why no repair of ours keeps CHAIN-27.
-const TAKEN_BACK: &str = "no repair yet: a backtrack repeats it";
+/// The reason why CHAIN-27 is broken by what backtracks.
+const TAKEN_BACK: &str = "a backtrack repeats it; of apart none does";
 
-/// The reason why no repair of ours keeps CHAIN-28.
-const UNASKED: &str = "no repair yet: no condition asks for it";
+/// The reason why CHAIN-28 is broken.
+const UNASKED: &str = "no condition asks for it; one of apart does";
+
+/// All areas in which the reel's robots meet unblocked, and exchange their cells.
+const SMALL: Most = Most { cells: 8, barriers: 10, robots: 2..=4 };
+
+/// Robots that stay together where a wall has brought them, and such as exchange their cells.
+const MEETING: NamedRule<Subject> = lacking(Subject::APART, PartsAtOnce);
+const EXCHANGING: NamedRule<Subject> = lacking(Subject::APART, NoExchange);
 
 /// The clauses.
 pub const CLAUSES: [Clause; 3] = [
@@ -44,6 +52,8 @@ pub const CLAUSES: [Clause; 3] = [
             ),
             &Check::refuted(REEL, &EveryArea(Invariant::Meets, AREAS, AREAS)).because(TAKEN_BACK),
             &Check::holds(REEL, &fewer_walls(Invariant::MeetsInAdvance), &[lacking(Subject::REEL, Distinct)]),
+            &Check::holds(APART, &EveryArea(Invariant::Meets, SMALL, SMALL), &[MEETING]),
+            &Check::holds(APART, &fewer_walls(Invariant::Meets), &[MEETING]),
         ],
     },
     Clause {
@@ -53,6 +63,8 @@ pub const CLAUSES: [Clause; 3] = [
             &Check::refuted(PUBLISHED, &EveryArea(Invariant::Exchanges, AREAS, AREAS)),
             &Check::refuted(REPAIRED, &EveryArea(Invariant::Exchanges, AREAS, AREAS)).because(UNASKED),
             &Check::refuted(REEL, &EveryArea(Invariant::Exchanges, AREAS, AREAS)).because(UNASKED),
+            &Check::holds(APART, &EveryArea(Invariant::Exchanges, SMALL, SMALL), &[EXCHANGING]),
+            &Check::holds(APART, &fewer_walls(Invariant::Exchanges), &[EXCHANGING]),
         ],
     },
 ];

@@ -14,6 +14,7 @@ use super::subject::Subject;
 use crate::decide::{self, Answer, Context, Method, RefutationPlay, Systems};
 use crate::engine::tree::{self, AllRuns, Progress, Tree, Watch, Waves};
 use crate::engine::{Choices, ScriptError, Until};
+use crate::plural::counted;
 use crate::run::Frame;
 
 /// The findings of a search.
@@ -207,7 +208,7 @@ impl Method<Subject> for EveryLayout {
     fn bound(&self) -> String {
         let (robots, max_walls) = self.1;
         let of = if self.0 == Invariant::MeetsInAdvance { ", in advances" } else { "" };
-        format!("all layouts, N = {robots}, at most {max_walls} walls{of}")
+        format!("all layouts, N = {robots}, at most {}{of}", counted(max_walls, "wall"))
     }
 
     fn family(&self, observed: &Subject) -> Option<String> {

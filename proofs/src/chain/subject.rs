@@ -63,6 +63,9 @@ impl Subject {
     /// The reel.
     pub const REEL: Self = Self::honest(Rule::REEL);
 
+    /// The reel whose robots keep apart.
+    pub const APART: Self = Self::honest(Rule::APART);
+
     /// The reel without *Hold*: within the repaired conditions.
     pub const UNHELD: Self = Self::honest(Rule::REEL.without(Condition::Hold));
 

@@ -30,6 +30,8 @@ use tautline_grids::heap_grid::HeapGrid;
 
 /// The rule that reels the chain in and out instead of backtracking, and holds contact whoever fails.
 pub const REEL: RuleId = RuleId::new("reel");
+/// The reel whose robots keep apart.
+pub const APART: RuleId = RuleId::new("apart");
 /// The reel without *Hold*.
 pub const UNHELD: RuleId = RuleId::new("unheld");
 
@@ -53,6 +55,7 @@ pub static CHAIN: Profile = Profile {
             "Within the repaired conditions, the shortest rehearsed way to an unexplored cell",
             Subject::REEL
         ),
+        searched!(APART, "The reel, whose robots never exchange cells, and part at once", Subject::APART),
         searched!(UNHELD, "The reel without the condition that holds contact whoever fails", Subject::UNHELD),
     ],
     team: "chain",

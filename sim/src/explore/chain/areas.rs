@@ -55,14 +55,8 @@ fn areas(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<A
         let remedy = format!("give `max-walls` a number up to {edges}, or more `max-cells`");
         return Err(Diagnostic::of_field("max-walls", what, remedy));
     }
-    Ok(Areas {
-        observed,
-        robots: whole.robots,
-        max_cells,
-        max_walls: walls.min(edges),
-        budget_moves: asked.budget,
-        invariants: whole.invariants,
-    })
+    let (robots, max_walls, budget_moves) = (whole.robots, walls.min(edges), asked.budget);
+    Ok(Areas { observed, robots, max_cells, max_walls, budget_moves, invariants: whole.invariants })
 }
 
 /// The report of a search.
