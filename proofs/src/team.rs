@@ -227,28 +227,25 @@ impl<R: Rule> Setting<'_, R> {
         Ok(maps)
     }
 
-    /// The scenes in which a run begins in this layout, each made when it is asked for: they may be more than memory
-    /// has room for.
-    fn scenes(&self, rule: &R, map: Map) -> impl Iterator<Item = Scene<R>> {
-        let placed = move |places| self.placed(places, rule, &map).into_iter().flatten();
-        placed(&self.starts).flat_map(move |starts| {
-            placed(&self.goals).map(move |goals| {
-                let mut map = map;
-                for &cell in starts.iter().chain(&goals) {
-                    map.note_cell(cell, true);
-                }
-                Self::scene(rule, &starts, goals, Some(&map))
-            })
-        })
-    }
-
-    /// Every scene in which a run begins: of every layout that is decided before, with every start and goal.
+    /// Every scene in which a run begins: of every layout that is decided before, with every start and goal. Each is made
+    /// when it is asked for: they may be more than memory has room for.
     ///
     /// # Errors
     /// [`MethodError`] if the area, the number of robots or the number of layouts
     /// is too large, or a robot starts outside.
     pub fn starts(&self, rule: &R) -> Result<impl IntoIterator<Item = Scene<R>>, MethodError> {
-        Ok(self.maps(rule)?.into_iter().flat_map(|map| self.scenes(rule, map)))
+        Ok(self.maps(rule)?.into_iter().flat_map(move |map| {
+            let placed = move |places| self.placed(places, rule, &map).into_iter().flatten();
+            placed(&self.starts).flat_map(move |starts| {
+                placed(&self.goals).map(move |goals| {
+                    let mut map = map;
+                    for &cell in starts.iter().chain(&goals) {
+                        map.note_cell(cell, true);
+                    }
+                    Self::scene(rule, &starts, goals, Some(&map))
+                })
+            })
+        }))
     }
 
     fn scene(rule: &R, starts: &[Cell], goals: Vec<Cell>, map: Option<&Map>) -> Scene<R> {
