@@ -195,6 +195,7 @@ impl Field {
     }
 
     /// Where a node is.
+    #[inline]
     pub(crate) fn at(&self, node: NodeId) -> Point {
         self.nodes[node.0 as usize]
     }

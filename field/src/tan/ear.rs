@@ -43,6 +43,7 @@ impl Signal {
     }
 
     /// How far off it seems to be, in metres.
+    #[inline]
     pub(crate) fn seems_m(self, from: Point) -> f64 {
         self.stretch * apart_m(self.at, from)
     }
