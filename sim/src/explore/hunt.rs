@@ -140,17 +140,13 @@ impl HuntRequest<'_> {
 /// The conclusion from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts
 /// that it had `covered` by then, if any: what it has found beyond those need not be the smallest.
 pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {
+    let none = "No clause that is looked for is broken";
     match (found, is_whole, covered) {
-        ([], true, _) => "No clause that is looked for is broken in any layout within this bound.".to_owned(),
+        ([], true, _) => format!("{none} in any layout within this bound."),
         ([], false, Some(covered)) => {
-            format!(
-                "No clause that is looked for is broken in any layout {covered}; the hunt was ended before its bound."
-            )
+            format!("{none} in any layout {covered}; the hunt was ended before its bound.")
         }
-        ([], false, None) => {
-            "No clause that is looked for is broken so far; the hunt was ended before it had covered any layout."
-                .to_owned()
-        }
+        ([], false, None) => format!("{none} so far; the hunt was ended before it had covered any layout."),
         (_, true, _) => {
             "The smallest counterexample to each clause that is broken in any layout within this bound:"
                 .to_owned()
