@@ -227,8 +227,8 @@ impl<R: Rule> Setting<'_, R> {
         Ok(maps)
     }
 
-    /// Every scene in which a run begins: of every layout that is decided before, with every start and goal. Each is made
-    /// when it is asked for: they may be more than memory has room for.
+    /// Every scene in which a run begins: of every layout that is decided before, with every start and goal. Each is
+    /// made when it is asked for: they may be more than memory has room for.
     ///
     /// # Errors
     /// [`MethodError`] if the area, the number of robots or the number of layouts
