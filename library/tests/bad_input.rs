@@ -91,7 +91,7 @@ fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
     assert_eq!(refused(&ricart::RULE, ricart::Net::of(9, 0), 0), "there are 1 to 8 nodes, not 9");
     let words = "a ring has two to ten machines of at least two states";
     assert_eq!(refused(&dijkstra::Rule::Published, dijkstra::Machines::of(1, 5), 0), words);
-    assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7");
+    assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7: the rule has 1");
 }
 
 /// The set of all eight nodes fits into its byte.

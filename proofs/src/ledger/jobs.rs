@@ -4,6 +4,7 @@
 
 use std::any::Any;
 use std::cmp::Reverse;
+use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
@@ -181,7 +182,13 @@ impl SharedState {
                 let mut context = Context { cache, watch, memory: self.limits.memory.asked(&words) };
                 let answer = || job.answer(question, &self.checks, &mut context);
                 let answer = panic::catch_unwind(AssertUnwindSafe(answer));
-                match answer.unwrap_or_else(|bug| Err(question.panicked(&self.checks, &*bug))) {
+                let answer = match answer {
+                    Ok(answer) => {
+                        answer.map_err(|why| question.failed(&self.checks, "cannot be decided", &why))
+                    }
+                    Err(bug) => Err(question.failed(&self.checks, "panics", &words_of(&*bug))),
+                };
+                match answer {
                     Ok(answer) => {
                         let (variant, seconds) = (question.variant(&self.checks), task.spent().as_secs_f64());
                         let done = Completion { question, variant, seconds, answer, undecided: None };
@@ -333,6 +340,12 @@ struct Job {
     how: How,
 }
 
+/// What a panic says.
+fn words_of(bug: &(dyn Any + Send)) -> &str {
+    let of = bug.downcast_ref::<&str>().copied().or_else(|| bug.downcast_ref().map(String::as_str));
+    of.unwrap_or("no words")
+}
+
 /// How a question is answered.
 #[derive(Clone, Copy)]
 enum How {
@@ -356,13 +369,11 @@ impl Question {
         self.variant.and_then(|variant| clause.checks[number].variants().get(variant).copied())
     }
 
-    /// The error that deciding it ends in where the rule, a demand on it or the engine panics.
-    fn panicked(self, checks: &[(&'static Clause, usize)], bug: &(dyn Any + Send)) -> MethodError {
+    /// The error that deciding it ends in, by the method or as the rule, a demand on it or the engine panics.
+    fn failed(self, checks: &[(&'static Clause, usize)], what: &str, why: &dyn Display) -> MethodError {
         let (clause, number) = checks[self.place];
         let rule = self.variant(checks).map_or(clause.checks[number].rule(), Variant::name);
-        let of = bug.downcast_ref::<&str>().copied().or_else(|| bug.downcast_ref().map(String::as_str));
-        let why = of.unwrap_or("no words");
-        MethodError::new(format_args!("{} panics for the rule {rule:?}: {why}", clause.id))
+        MethodError::new(format_args!("{} {what} for the rule {rule:?}: {why}", clause.id))
     }
 
     /// The words that stand for it alone.

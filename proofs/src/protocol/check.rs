@@ -31,7 +31,10 @@ impl<P: Protocol> Keeps<P> {
     /// The protocol in each of its surroundings. With `tries_all`, and in debug builds, each state that is met is tried
     /// whether it comes back from its bytes; else starts are, and the first state to which each leads.
     fn playing(&self, rule: &P, tries_all: bool) -> Result<Vec<ErasedProtocol>, MethodError> {
-        let none = || MethodError::new(format_args!("there is no demand {}", self.1));
+        let none = || {
+            let of = P::DEMANDS.len();
+            MethodError::new(format_args!("there is no demand {}: the rule has {of}", self.1))
+        };
         let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
         let how = (demand, tries_all || cfg!(debug_assertions));
         let each = self.0.each()?.into_iter();
