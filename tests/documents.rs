@@ -431,7 +431,7 @@ fn the_templates_find_the_crates_where_they_are_copied_as_the_page_says() {
     assert!(copying.contains(&tree), "{copying}");
     let folder = &folder();
     std::os::unix::fs::symlink(env!("CARGO_MANIFEST_DIR"), folder.join("tautline")).expect("a link");
-    for name in ["rule", "page"] {
+    for name in ["rule", "protocol", "page"] {
         let lines = copying.replace("rule", name);
         let output = Command::new("sh").args(["-ec", &lines]).current_dir(folder).output().expect("a shell");
         assert!(output.status.success(), "{lines}\n{}", String::from_utf8_lossy(&output.stderr));
