@@ -6,20 +6,20 @@ pub trait Conditional: Copy {
     const CONDITIONS: &'static [(&'static str, &'static str)];
 
     /// The conditions in force, a bit for each in their order.
-    fn in_force(&self) -> u16;
+    fn in_force(&self) -> u32;
 
     /// This rule with these conditions in force, and no others.
     #[must_use]
-    fn with_in_force(self, conditions: u16) -> Self;
+    fn with_in_force(self, conditions: u32) -> Self;
 }
 
-/// Makes a fieldless enum of at most 16 conditions, the list `ALL` of them, the type `Conditions` of their sets, and
-/// what a rule is asked that has such a set in its field `conditions`.
+/// Makes a fieldless enum of conditions, the list `ALL` of them, the type `Conditions` of their sets, each in a number
+/// with a bit for each condition, and what a rule is asked that has such a set in its field `conditions`.
 ///
 /// ```
 /// tautline_kernel::conditions! {
 ///     /// One condition of the rule.
-///     pub enum Condition of Rule {
+///     pub enum Condition of Rule in u16 {
 ///         /// A robot that is blocked waits.
 ///         Waits,
 ///         /// A robot that waits tells so.
@@ -39,7 +39,7 @@ pub trait Conditional: Copy {
 macro_rules! conditions {
     (
         $(#[$about:meta])*
-        pub enum $condition:ident $(of $rule:ident)? { $($(#[doc = $says:literal])* $name:ident,)* }
+        pub enum $condition:ident $(of $rule:ident)? in $bits:ident { $($(#[doc = $says:literal])* $name:ident,)* }
     ) => {
         $(#[$about])*
         #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -55,7 +55,7 @@ macro_rules! conditions {
 
         /// A set of conditions.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-        pub struct Conditions(u16);
+        pub struct Conditions($bits);
 
         $crate::format_conditions!($condition);
 
@@ -71,19 +71,19 @@ macro_rules! conditions {
             /// This set with `condition`.
             #[must_use]
             pub const fn with(self, condition: $condition) -> Self {
-                Self(self.0 | 1 << condition as u16)
+                Self(self.0 | 1 << condition as $bits)
             }
 
             /// This set without `condition`.
             #[must_use]
             pub const fn without(self, condition: $condition) -> Self {
-                Self(self.0 & !(1 << condition as u16))
+                Self(self.0 & !(1 << condition as $bits))
             }
 
             /// Whether `condition` is in the set.
             #[inline]
             pub const fn has(self, condition: $condition) -> bool {
-                self.0 & (1 << condition as u16) != 0
+                self.0 & (1 << condition as $bits) != 0
             }
         }
 
@@ -112,12 +112,12 @@ macro_rules! conditions {
         impl $crate::conditions::Conditional for $rule {
             const CONDITIONS: &'static [(&'static str, &'static str)] = $condition::SENTENCES;
 
-            fn in_force(&self) -> u16 {
-                self.conditions.0
+            fn in_force(&self) -> u32 {
+                self.conditions.0.into()
             }
 
-            fn with_in_force(mut self, conditions: u16) -> Self {
-                self.conditions = Conditions(conditions);
+            fn with_in_force(mut self, conditions: u32) -> Self {
+                self.conditions = Conditions(conditions as $bits);
                 self
             }
         })?

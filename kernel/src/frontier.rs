@@ -1,7 +1,7 @@
 //! Frontier cells (Rajesh, Nagaraja and Suja 2024, 4, “Frontier Cell Selection” and “Moving to the Selected Frontier
 //! Cell”; 5, “Implementation”): robots that explore an area of equal square cells. Each keeps a repository, a [`Map`]
 //! of which cells are explored and which are obstacles, goes to an unexplored neighbour of its cell, and tells the
-//! others. Clauses: FRONTIER-1 … FRONTIER-12.
+//! others. Clauses: FRONTIER-1 … FRONTIER-13.
 //!
 //! A [`Robot`] is a plain value with three calls. [`Robot::next`] says what it does next; [`Robot::looked`] takes what
 //! it sees of the cell that it is about to enter; [`Robot::arrived`] ends the move. [`Robot::hears`] takes what another

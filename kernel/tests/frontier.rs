@@ -192,6 +192,25 @@ fn a_robot_goes_round_a_small_obstacle_with_its_claim_and_stores_it_only_without
 }
 
 #[test]
+fn a_robot_turns_back_from_a_cell_that_it_took_for_unexplored_and_only_from_that() {
+    let (here, east, north) = (Cell::new(3, 3), Cell::new(4, 3), Cell::new(3, 2));
+    let looked = |rule: Rule, aim: Cell, sight: Sight| {
+        let mut robot = Robot::new(blank(), here, &[]);
+        robot.tries(Side::East, aim);
+        robot.hears(east, Status::Explored);
+        robot.looked(&rule, sight);
+        (robot.stance(), robot.aim(), robot.waits(), robot.is_bound(&rule))
+    };
+    let enters = (Stance::Enters(Side::East), Some(east), false, true);
+    assert_eq!(looked(Rule::REPAIRED, east, Sight::Open), (Stance::Stands, None, false, false));
+    assert_eq!(looked(Rule::REPAIRED.without(Condition::Return), east, Sight::Open), enters);
+    // The cell is on the way to another one, or has a robot in it.
+    let passes = (Stance::Enters(Side::East), Some(north), false, true);
+    assert_eq!(looked(Rule::REPAIRED, north, Sight::Open), passes);
+    assert_eq!(looked(Rule::REPAIRED, east, Sight::Robot), (Stance::Stands, None, true, true));
+}
+
+#[test]
 fn with_less_memory_fewer_cells_are_compared_and_still_all_robots() {
     // The second robot goes to the eastern cell and the third one to the northern, so that the southern one is left.
     let map = explored_but(&[(3, 1), (3, 5), (6, 5)]);

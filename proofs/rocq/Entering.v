@@ -43,13 +43,14 @@ Section Area.
     - destruct (doing (robots w j)) as [|v|v] eqn:Do; try discriminate. destruct (negb _); [discriminate|].
       destruct (meets V same N w j v) as [|k met] eqn:M; injection E as <-; rewrite (proj1 (settle_robots _ _ _ _));
         cbn [robots with_robots].
-      + assert (body ((if obstacle v then tells V same (put (robots w) j (if obstacle v then blocks V same (robots w j) v
-          else becomes V (robots w j) (Enters v) (aim (robots w j)) false)) j ms else put (robots w) j (if obstacle v then
-          blocks V same (robots w j) v else becomes V (robots w j) (Enters v) (aim (robots w j)) false)) i)
-          = if i =? j then (place (robots w j), if obstacle v then Stands else Enters v) else body (robots w i)) as ->.
-        { destruct (obstacle v); rewrite ?body_tells; unfold put; destruct (i =? j); reflexivity. }
-        destruct (Nat.eqb_spec i j) as [->|D]; [|apply turns_not].
-        destruct (obstacle v) eqn:O; [eapply turns_away | eapply turns_in]; eauto.
+      + assert (forall o l : bool, let r := if o then blocks V same (robots w j) v else if l then Explorers.turns V (robots w j)
+            else becomes V (robots w j) (Enters v) (aim (robots w j)) false in
+          body ((if o then tells V same (put (robots w) j r) j ms else put (robots w) j r) i)
+          = if i =? j then (place (robots w j), if o || l then Stands else Enters v) else body (robots w i)) as S.
+        { intros [|] [|]; cbn zeta; rewrite ?body_tells; unfold put; destruct (i =? j); reflexivity. }
+        rewrite S; destruct (Nat.eqb_spec i j) as [->|D]; [|apply turns_not].
+        destruct (obstacle v) eqn:O; [eapply turns_away; eauto|]. cbn [orb].
+        destruct (late _ _ _ _ _); [eapply turns_away | eapply turns_in]; eauto.
       + assert (forall g, body (is_told V same (tells V same (put (robots w) j (becomes V (robots w j) Stands None true)) j ms)
           j g i) = if i =? j then (place (robots w j), Stands) else body (robots w i)) as S.
         { intros g; unfold is_told; unfold put at 1; destruct (i =? j) eqn:D.

@@ -17,10 +17,11 @@ Record robot (V : Type) := { explored : list V; blocked : list V; place : V; doi
 Arguments explored {V} r. Arguments blocked {V} r. Arguments place {V} r. Arguments doing {V} r. Arguments aim {V} r.
 Arguments waits {V} r. Arguments news {V} r. Arguments told {V} r.
 
-(** A rule says to which cells a robot may go next, each with the unknown cell that it has claimed then, and whether claims
-    are told. *)
-Record rule (V : Type) := { chooses : nat -> robot V -> list (V * V); claims : bool }.
-Arguments chooses {V} r. Arguments claims {V} r.
+(** A rule says to which cells a robot may go next, each with the unknown cell that it has claimed then, whether claims
+    are told, and whether a robot turns back at the rim of a cell that it has claimed and that its map has for explored by
+    then. *)
+Record rule (V : Type) := { chooses : nat -> robot V -> list (V * V); claims : bool; returns : bool }.
+Arguments chooses {V} r. Arguments claims {V} r. Arguments returns {V} r.
 
 (** What may happen, with the robots that miss what is said. Of a look into a cell with a robot also those which the
     looking one does not hear, and the slot that it is when the first one begins to wait. *)
@@ -93,6 +94,12 @@ Section Area.
     Definition blocks (r : robot V) (v : V) : robot V :=
       {| explored := explored r; blocked := join (blocked r) [v]; place := place r; doing := Stands; aim := None;
          waits := false; news := grows_by (blocked r) [v]; told := told r |}.
+    (** Another robot has been in the cell that it is about to enter. *)
+    Definition late (r : robot V) (v : V) : bool :=
+      returns rl && has (explored r) v && match aim r with Some a => same a v | None => false end.
+    Definition turns (r : robot V) : robot V :=
+      {| explored := explored r; blocked := blocked r; place := place r; doing := Stands; aim := None; waits := false;
+         news := true; told := told r |}.
     Definition lands (r : robot V) (v : V) : robot V :=
       {| explored := join (explored r) [v]; blocked := blocked r; place := v; doing := Stands;
          aim := match aim r with Some c => if claims rl && negb (same c v) then Some c else None | None => None end;
@@ -119,7 +126,8 @@ Section Area.
           match doing r with
           | Tries v => if negb ((i <? N) && (s <? N)) then None else
               match meets w i v with
-              | [] => let r := if obstacle v then blocks r v else becomes r (Enters v) (aim r) false in
+              | [] => let r := if obstacle v then blocks r v
+                        else if late r v then turns r else becomes r (Enters v) (aim r) false in
                       let f := put (robots w) i r in
                       Some (settle (with_robots w (if obstacle v then tells f i missed else f)))
               | met =>
@@ -169,7 +177,7 @@ Section Area.
     let t := targets r (place r) in
     filter (fun c => forallb (fun d => far (explored r) (place r) c <=? far (explored r) (place r) d) t) t.
   Definition PLAIN : rule V :=
-    {| chooses := fun _ r => flat_map (fun c => map (fun v => (v, c)) (firsts r c)) (nearest r); claims := false |}.
+    {| chooses := fun _ r => flat_map (fun c => map (fun v => (v, c)) (firsts r c)) (nearest r); claims := false; returns := true |}.
 
   (** Repaired: robots and unknown cells are paired, the least pair first. Cells have numbers, and a distance to the rim
       of the area. *)
@@ -216,7 +224,7 @@ Section Area.
              match firsts r c with v :: _ => [(v, c)] | [] => [] end
          | None => []
          end;
-       claims := true |}.
+       claims := true; returns := true |}.
   Definition REPAIRED : rule V := PAIRED true.
   End Pairs.
 
@@ -328,7 +336,7 @@ Section Area.
       + rewrite (proj1 (settle_robots rl _)), (proj2 (settle_robots rl _)); cbn. destruct (obstacle v) eqn:O.
         * apply sound_tells; [|exact G]. apply sound_put; [exact S|]. destruct (S i G) as [A B]; split; cbn; [exact A|].
           intros x I; apply join_in in I; destruct I as [I|[<-|[]]]; auto.
-        * apply sound_put; [exact S | exact (S i G)].
+        * apply sound_put; [exact S | destruct (late _ _ _); exact (S i G)].
       + rewrite (proj1 (settle_robots rl _)), (proj2 (settle_robots rl _)); cbn [robots been].
         apply sound_told; [|exact G|]; [apply sound_tells; [apply sound_put; [exact S | exact (S i G)] | exact G]|].
         intros j I; apply filter_In in I; destruct I as [I _]; eapply meets_robots; eauto.
@@ -671,7 +679,8 @@ Section Area.
       destruct (IH i G) as [B [C P]]; rewrite D in P.
       destruct (meets w i v) as [|m met] eqn:M; [|rewrite <- M in E]; injection E as <-;
         rewrite (proj1 (settle_robots rl _)); cbn [robots with_robots].
-      + destruct (obstacle v); [apply placed_tells|]; (apply placed_put; [exact IH | repeat split; cbn; auto]).
+      + destruct (obstacle v); [apply placed_tells|]; (apply placed_put; [exact IH|]); [|destruct (late _ _ _)];
+          repeat split; cbn; auto.
       + assert (forall j, j < N -> placed (tells (put (robots w) i (becomes (robots w i) Stands None true)) i missed j)) as T
           by (apply placed_tells, placed_put; [exact IH | repeat split; cbn; auto]).
         apply placed_put; [exact T|]. specialize (T i G); revert T; generalize (tells (put (robots w) i (becomes

@@ -64,6 +64,7 @@ Section Area.
   Notation leads := (leads V same obstacle N rl).
   Notation may_decide := (may_decide V rl).
   Notation may_tick := (may_tick V N rl).
+  Notation late := (late V same rl).
 
   Definition acts (i : nat) (e : event V) : bool :=
     match e with Decides j _ _ _ | Looks j _ _ _ | Arrives j _ => j =? i | Ticks => false end.
@@ -113,7 +114,7 @@ Section Area.
           try (apply Nat.eqb_eq in D; subst).
         * eexists [], _; split; [now rewrite app_nil_r | reflexivity].
         * destruct (is_in i ms); [now apply longer_same | now apply longer_hears, longer_same].
-        * now apply longer_same.
+        * destruct (late _ _); now apply longer_same.
       + assert (longer (robots w i) (tells V same (put (robots w) j (becomes V (robots w j) Stands None true)) j ms i)) as L.
         { unfold tells, put; destruct (i =? j) eqn:D; cbn [orb]; [apply Nat.eqb_eq in D; subst; now apply longer_same|].
           destruct (is_in i ms); [now apply longer_same | now apply longer_hears, longer_same]. }
@@ -141,7 +142,7 @@ Section Area.
     match e with
     | Decides j v c _ => j = i /\ may_decide w i = true /\ In (v, c) (chooses rl i r) /\ x = (place r, Tries v, waits r)
     | Looks j _ _ _ => j = i /\ exists v, doing r = Tries v
-        /\ ((meets V same N w i v = [] /\ x = if obstacle v then (place r, Stands, false) else (place r, Enters v, false))
+        /\ ((meets V same N w i v = [] /\ x = if obstacle v || late r v then (place r, Stands, false) else (place r, Enters v, false))
             \/ (meets V same N w i v <> [] /\ x = (place r, Stands, true)))
     | Arrives j _ => j = i /\ exists v, doing r = Enters v /\ x = (v, Stands, waits r)
     | Ticks => False
@@ -162,12 +163,12 @@ Section Area.
       + rewrite Nat.eqb_sym, D; auto.
     - destruct (doing (robots w j)) as [|v|v] eqn:Do; try discriminate. destruct (negb _); [discriminate|].
       destruct (meets V same N w j v) as [|k met] eqn:M; injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots with_robots].
-      + assert (forall o : bool, self ((if o then tells V same (put (robots w) j (if o then blocks V same (robots w j) v
-          else becomes V (robots w j) (Enters v) (aim (robots w j)) false)) j ms else put (robots w) j (if o then
-          blocks V same (robots w j) v else becomes V (robots w j) (Enters v) (aim (robots w j)) false)) i)
-          = if i =? j then (if o then (place (robots w j), Stands, false) else (place (robots w j), Enters v, false))
+      + assert (forall o l : bool, let r := if o then blocks V same (robots w j) v else if l then turns V (robots w j)
+            else becomes V (robots w j) (Enters v) (aim (robots w j)) false in
+          self ((if o then tells V same (put (robots w) j r) j ms else put (robots w) j r) i)
+          = if i =? j then (if o || l then (place (robots w j), Stands, false) else (place (robots w j), Enters v, false))
             else self (robots w i)) as S.
-        { intros [|]; rewrite ?self_tells; unfold put; destruct (i =? j); reflexivity. }
+        { intros [|] [|]; cbn zeta; rewrite ?self_tells; unfold put; destruct (i =? j); reflexivity. }
         rewrite S, (Nat.eqb_sym i j); destruct (j =? i) eqn:D; [|auto]. apply Nat.eqb_eq in D; subst j.
         right; split; [reflexivity|]; split; [reflexivity|]; exists v; auto.
       + assert (forall g, self (is_told V same (tells V same (put (robots w) j (becomes V (robots w j) Stands None true)) j ms) j g i)
@@ -183,6 +184,52 @@ Section Area.
       rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:D; [|auto]. apply Nat.eqb_eq in D; subst j.
       right; split; [reflexivity|]; split; [reflexivity|]; exists v; auto.
     - destruct (may_tick w); [|discriminate]; injection E as <-; auto.
+  Qed.
+
+  (** What a step makes of the claim of the robot that acts. *)
+  Lemma step_aim : forall w e w', leads w e w' -> forall i, i < N -> if acts i e then match e with
+      | Decides _ _ c _ => aim (robots w' i) = Some c
+      | Looks _ _ _ _ => forall v, doing (robots w i) = Tries v ->
+          (meets V same N w i v <> [] /\ aim (robots w' i) = None)
+          \/ (meets V same N w i v = [] /\ obstacle v = true /\ In v (blocked (robots w' i)))
+          \/ (meets V same N w i v = [] /\ obstacle v = false
+              /\ aim (robots w' i) = if late (robots w i) v then None else aim (robots w i))
+      | Arrives _ _ => forall v, doing (robots w i) = Enters v -> aim (robots w' i)
+          = match aim (robots w i) with Some c => if claims rl && negb (same c v) then Some c else None | None => None end
+      | Ticks => True
+      end else aim (robots w' i) = aim (robots w i).
+  Proof.
+    assert (forall f j ms k, aim (tells V same f j ms k) = aim (f k)) as T
+      by (intros f j ms k; unfold tells; destruct ((k =? j) || is_in k ms); reflexivity).
+    assert (forall (f : nat -> robot V) l r, aim (fold_left (fun r j => hears V same r j (f j)) l r) = aim r) as H
+      by (intros f; induction l as [|k l IH]; intros r; cbn; [reflexivity | now rewrite IH]).
+    assert (forall f j l k, aim (is_told V same f j l k) = aim (f k)) as To by (intros f j l k; unfold is_told, put;
+      destruct (k =? j) eqn:K; [apply Nat.eqb_eq in K; subst; apply H | reflexivity]).
+    intros w e w' [x [E [A _]]] i I; rewrite <- A by exact I. clear A.
+    destruct e as [j v c ms | j ms un sl | j ms |]; cbn [next acts] in *.
+    - destruct (_ && _); [|discriminate]; injection E as <-; cbn [robots with_robots]. replace (aim _) with (aim (put (robots w) j
+        (becomes V (robots w j) (Tries v) (Some c) (waits (robots w j))) i)) by (destruct (claims rl); [now rewrite T | reflexivity]).
+      unfold put.
+      rewrite (Nat.eqb_sym i j); destruct (j =? i); reflexivity.
+    - destruct (doing (robots w j)) as [|v|v] eqn:D; try discriminate. destruct (negb _); [discriminate|].
+      destruct (meets V same N w j v) as [|k met] eqn:M; injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots with_robots].
+      + assert (forall o l : bool, let r := if o then blocks V same (robots w j) v else if l then turns V (robots w j)
+            else becomes V (robots w j) (Enters v) (aim (robots w j)) false in
+          aim ((if o then tells V same (put (robots w) j r) j ms else put (robots w) j r) i)
+          = if (j =? i) && (o || l) then None else aim (robots w i)) as S.
+        { intros [|] [|]; cbn zeta; rewrite ?T; unfold put; rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:J; try reflexivity.
+          apply Nat.eqb_eq in J; now subst. }
+        destruct (j =? i) eqn:J; [apply Nat.eqb_eq in J; subst j | now rewrite S].
+        intros u U; rewrite D in U; injection U as <-; right. rewrite S; cbn [andb]; destruct (obstacle v); [left | right; auto].
+        repeat split; auto. unfold tells; rewrite Nat.eqb_refl; cbn [orb]; unfold put; rewrite Nat.eqb_refl; cbn.
+        apply (in_join V same cells beside same_spec beside_cells); cbn; auto.
+      + rewrite To, T; unfold put; rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:J; [|reflexivity].
+        apply Nat.eqb_eq in J; subst j; intros u U; rewrite D in U; injection U as <-; left; rewrite M; split; [discriminate | reflexivity].
+    - destruct (doing (robots w j)) as [|v|v] eqn:D; try discriminate. destruct (j <? N); [|discriminate].
+      injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots]. rewrite T; unfold put.
+      rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:J; [|reflexivity]. apply Nat.eqb_eq in J; subst j.
+      intros u U; rewrite D in U; now injection U as <-.
+    - destruct (may_tick w); [|discriminate]; injection E as <-; reflexivity.
   Qed.
 
   (** Maps have each cell once. *)
@@ -235,7 +282,7 @@ Section Area.
       destruct (sl <? N); [|discriminate]; cbn [andb negb] in E; apply Nat.ltb_lt in J; specialize (Cell j J); rewrite Do in Cell.
       destruct (meets V same N w j v) as [|k met] eqn:M; [|rewrite <- M in E]; injection E as <-;
         rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots with_robots].
-      + destruct (obstacle v); [apply T; auto|]; apply P; auto; try apply (IH j J).
+      + destruct (obstacle v); [apply T; auto|]; apply P; auto; try (destruct (late _ _); apply (IH j J)).
         destruct (IH j J) as [B C]; split; [exact B|]; cbn; apply fits_join; [exact C | now apply fits_one].
       + assert (forall k, k < N -> fits (tells V same (put (robots w) j (becomes V (robots w j) Stands None true)) j ms k)) as Q
           by (apply T; [apply P; [exact IH | apply (IH j J)] | exact J]).
@@ -272,7 +319,8 @@ Section Area.
         * unfold self in E; injection E as _ E _; rewrite D in E; eauto.
         * unfold self in O; rewrite D in O; destruct e as [j u c ms|j ms un sl|j ms|]; cbn in O; [| | |destruct O].
           -- destruct O as [_ [_ [_ O]]]; discriminate.
-          -- destruct O as [_ [u [_ [[_ O]|[_ O]]]]]; [destruct (obstacle u) eqn:Ob|]; try discriminate. now injection O as _ ->.
+          -- destruct O as [_ [u [_ [[_ O]|[_ O]]]]]; [destruct (obstacle u) eqn:Ob; [|destruct (late _ _)]|]; try discriminate.
+             now injection O as _ ->.
           -- destruct O as [_ [u [_ O]]]; discriminate.
   Qed.
 
@@ -397,7 +445,7 @@ Section Area.
       assert (doing (at_ (S m) i) = Stands \/ exists u, doing (at_ (S m) i) = Enters u) as [H|[u H]].
       { unfold at_; destruct (e m) as [j u c ms|j ms un sl|j ms|]; cbn in O; [| | |destruct O].
         - destruct O as [_ [O _]]; unfold Explorers.may_decide, Explorers.moves in O; now rewrite Dm in O.
-        - destruct O as [_ [u [_ [[_ O]|[_ O]]]]]; unfold self in O; [destruct (obstacle u)|]; injection O; eauto.
+        - destruct O as [_ [u [_ [[_ O]|[_ O]]]]]; unfold self in O; [destruct (_ || _)|]; injection O; eauto.
         - destruct O as [_ [u [O _]]]; congruence. }
       - exists (S m); split; [lia | exact H].
       - destruct (En _ _ H) as [k [Lk K]]; exists k; split; [lia | exact K].
@@ -481,7 +529,7 @@ Section Area.
         destruct (e n) as [j v c ms|j ms un sl|j ms|] eqn:Ev; cbn in O; [| | |destruct O].
         + destruct O as [-> [_ [_ E]]]; rewrite E in X; injection X as P D _; rewrite <- D.
           destruct (Al (at_ n i) (eq_sym P) eq_refl eq_refl) as [-> F]; exists c; rewrite F; now apply (is_plain n i v c ms).
-        + destruct O as [_ [v [D [[_ O]|[_ O]]]]]; rewrite O in X; [destruct (obstacle v)|]; injection X as P D' _; rewrite <- D'; auto.
+        + destruct O as [_ [v [D [[_ O]|[_ O]]]]]; rewrite O in X; [destruct (_ || _)|]; injection X as P D' _; rewrite <- D'; auto.
           unfold at_ in A at 1; rewrite D in A; destruct (Al (at_ n i) (eq_sym P) eq_refl eq_refl) as [-> F].
           destruct A as [c [C1 C2]]; exists c; now rewrite F.
         + destruct O as [_ [v [_ O]]]; rewrite O in X; injection X as _ D _; now rewrite <- D.
@@ -492,6 +540,35 @@ Section Area.
       - intros i a b L [A B]; split; [lia | intros; apply B; lia].
       - intros i I; destruct (lands_or_stays i t I) as [m [L D]]; exists m; split; [exact L|]; intros n Ln.
         induction Ln as [|n Ln IH]; [unfold aligned; now rewrite D | eapply aligned_step; eauto; lia].
+      - exists (t + u); split; [lia|]; intros n i L I; apply (proj2 (H i I)); lia.
+    Qed.
+
+    (** A robot under way has not claimed what it knows to be explored. *)
+    Definition fresh (n i : nat) : Prop :=
+      doing (at_ n i) <> Stands -> forall a, aim (at_ n i) = Some a -> ~ In a (explored (at_ n i)).
+    Lemma fresh_step : forall t n i, known t -> t <= n -> plain_from <= n -> i < N -> fresh n i -> fresh (S n) i.
+    Proof.
+      intros t n i K L Pf I F Fl a; destruct (K n i L I) as [K1 _], (K (S n) i ltac:(lia) I) as [K2 _].
+      rewrite K2, <- K1. pose proof (step_aim _ _ _ (proj2 goes_on n) i I) as A; fold (at_ n i) (at_ (S n) i) in A.
+      destruct (self_step n i I) as [[X S]|[X O]]; rewrite X in A.
+      - apply self_eq in S; destruct S as [_ [S _]]; rewrite A; apply F; congruence.
+      - remember (self (at_ (S n) i)) as x eqn:Y; unfold self in Y.
+        destruct (e n) as [j v c ms|j ms un sl|j ms|] eqn:Ev; cbn in O; [| | |destruct O].
+        + destruct O as [-> _]; rewrite A; intros E; injection E as <-.
+          destruct (is_plain n i v c ms Pf Ev) as [Ne _]; apply (nearest_spec V same cells beside) in Ne; auto.
+          destruct Ne as [T _]; apply (targets_spec V same cells beside) in T; auto; tauto.
+        + destruct O as [-> [v [D O]]]; specialize (A v D). assert (doing (at_ n i) <> Stands) as Fn by (unfold at_; rewrite D; discriminate).
+          destruct O as [[Me O]|[Me O]]; rewrite O in Y; [|injection Y as _ Y _; congruence].
+          destruct A as [[A _]|[[_ [Ob _]]|[_ [Ob A]]]]; [congruence | rewrite Ob in Y; injection Y as _ Y _; congruence|].
+          rewrite A; destruct (late (at_ n i) v); [discriminate | now apply F].
+        + destruct O as [-> [v [D O]]]; rewrite O in Y; injection Y as _ Y _; congruence.
+    Qed.
+    Lemma fresh_in_the_end : forall t, known t -> plain_from <= t -> exists u, t <= u /\ forall n i, u <= n -> i < N -> fresh n i.
+    Proof.
+      intros t K Pf; destruct (all_in_the_end (fun i u => t <= u /\ forall n, u <= n -> fresh n i) N) as [u H].
+      - intros i a b L [A B]; split; [lia | intros; apply B; lia].
+      - intros i I; destruct (lands_or_stays i t I) as [m [L D]]; exists m; split; [exact L|]; intros n Ln.
+        induction Ln as [|n Ln IH]; [intros Fl; congruence | eapply fresh_step; eauto; lia].
       - exists (t + u); split; [lia|]; intros n i L I; apply (proj2 (H i I)); lia.
     Qed.
 
@@ -549,7 +626,7 @@ Section Area.
           destruct (nearest_alike (at_ (S n) i) (at_ n i)) as [-> _]; [repeat split; congruence|];
           destruct (nearest _); [reflexivity | rewrite P; congruence]]).
       - destruct O as [_ [_ [_ O]]]; unfold self in O; now injection O.
-      - destruct O as [_ [u [_ [[_ O]|[_ O]]]]]; unfold self in O; [destruct (obstacle u)|]; now injection O.
+      - destruct O as [_ [u [_ [[_ O]|[_ O]]]]]; unfold self in O; [destruct (_ || _)|]; now injection O.
       - apply Nat.eqb_eq in X; congruence.
       - destruct O.
     Qed.
@@ -561,6 +638,7 @@ Section Area.
       Hypothesis all_known : known t.
       Hypothesis all_heard : forall n, t <= n -> missed (e n) = false.
       Hypothesis all_aligned : forall n i, t <= n -> i < N -> aligned n i.
+      Hypothesis all_fresh : forall n i, t <= n -> i < N -> fresh n i.
       Hypothesis no_arrival : forall n i ms, t <= n -> i < N -> e n <> Arrives i ms.
 
       Lemma no_entry : forall n i v, t <= n -> i < N -> doing (at_ n i) <> Enters v.
@@ -588,7 +666,12 @@ Section Area.
           rewrite <- D, <- W; repeat split; auto; discriminate.
         - destruct O as [-> [v [D O]]]; cbn in H; destruct ms; [|discriminate]; destruct un; [|discriminate].
           destruct O as [[Me O]|[Me O]]; rewrite O in X.
-          + exfalso; destruct (obstacle v) eqn:Ob; [|injection X as _ D' _; exact (no_entry (S n) i v ltac:(lia) I (eq_sym D'))].
+          + exfalso; destruct (obstacle v) eqn:Ob; [clear X|destruct (late (at_ n i) v) eqn:La;
+              [|unfold at_ in La; rewrite La in X; injection X as _ D' _; exact (no_entry (S n) i v ltac:(lia) I (eq_sym D'))]].
+            2: { unfold Explorers.late in La; destruct (aim (at_ n i)) as [a|] eqn:Ai; [|now rewrite andb_false_r in La].
+              rewrite !andb_true_iff in La; destruct La as [[_ Ex] Sa]; apply same_spec in Sa; subst a.
+              apply (has_in V same cells beside same_spec beside_cells) in Ex.
+              apply (all_fresh n i L I) with (a := v); auto; unfold at_; congruence. }
             assert (In v (blocked (at_ (S n) i))) as B.
             { destruct (proj2 goes_on n) as [y [N' [Y _]]]; rewrite E in N'; cbn [next] in N'; rewrite D in N'.
               destruct (negb _); [discriminate|]; rewrite Me, Ob in N'; injection N' as N'.
@@ -621,7 +704,7 @@ Section Area.
         destruct (self_step n i I) as [[_ S]|[A O]]; [now apply self_eq in S|].
         unfold self in O; destruct (e n) as [j v c ms|j ms un sl|j ms|] eqn:E; cbn in O; [| | |destruct O].
         - destruct O as [_ [_ [_ O]]]; now injection O.
-        - destruct O as [_ [v [_ [[_ O]|[_ O]]]]]; [destruct (obstacle v)|]; now injection O.
+        - destruct O as [_ [v [_ [[_ O]|[_ O]]]]]; [destruct (_ || _)|]; now injection O.
         - destruct O as [-> _]; exfalso; exact (no_arrival n i ms L I E).
       Qed.
       Lemma stays : forall n i, t <= n -> i < N -> alike_maps (at_ n i) (at_ t i).
@@ -645,7 +728,7 @@ Section Area.
           apply (total_same N (fun i => if waits (at_ t i) then 0 else 1) (fun i => if waits (at_ n i) then 0 else 1)) with (i := i) in E;
             [cbn in E; rewrite W in E; destruct (waits (at_ n i)); congruence | | exact I].
           intros j J; cbn beta; destruct (waits (at_ t j)) eqn:Wj; [|match goal with |- (if ?b then _ else _) <= _ => destruct b end; lia].
-          assert (waits (at_ n j) = true) as ->; [|lia]. clear - L J Wj all_known all_heard all_aligned no_arrival same_spec beside_cells is_fair goes_on.
+          assert (waits (at_ n j) = true) as ->; [|lia]. clear - L J Wj all_known all_heard all_aligned all_fresh no_arrival same_spec beside_cells is_fair goes_on.
           induction L as [|n L IH]; [exact Wj | now apply waits_stay].
       Qed.
       Lemma flier_waits : forall n i, t <= n -> i < N -> flying n i -> waits (at_ t i) = true.
@@ -881,12 +964,15 @@ Section Area.
     apply (learnt_same s e G) in K'; remember (t1' + tp) as t1 eqn:T1.
     assert (known s t1) as K.
     { intros n i L I; destruct (K' n i ltac:(lia) I) as [-> ->], (K' t1 i ltac:(lia) I) as [-> ->]; auto. }
-    destruct (aligned_in_the_end s e G F tp Pl t1 K ltac:(lia)) as [t2 [L2 A]].
+    assert (exists t2, t1 <= t2 /\ forall n i, t2 <= n -> i < N -> aligned s n i /\ fresh s n i) as [t2 [L2 A]].
+    { destruct (aligned_in_the_end s e G F tp Pl t1 K ltac:(lia)) as [a [La A]].
+      destruct (fresh_in_the_end s e G F tp Pl t1 K ltac:(lia)) as [b [Lb B]].
+      exists (a + b); split; [lia|]; intros n i L I; split; [apply A | apply B]; auto; lia. }
     assert (forall t, t1 <= t -> known s t) as Kn.
     { intros t L n i Ln I; destruct (K n i ltac:(lia) I) as [-> ->], (K t i L I) as [-> ->]; auto. }
     apply (constant (left_ s (t0 + t2))).
     { intros k; apply total_le; intros i I; rewrite Nat.add_succ_r.
-      apply (near_step s e G t2 (t0 + t2 + k) i (Kn t2 L2) ltac:(lia) I (A (t0 + t2 + k) i ltac:(lia) I)). }
+      apply (near_step s e G t2 (t0 + t2 + k) i (Kn t2 L2) ltac:(lia) I (proj1 (A (t0 + t2 + k) i ltac:(lia) I))). }
     intros k C; assert (exists t, t = t0 + t2 + k) as [t Et] by eauto.
     assert (forall n i ms, t <= n -> i < N -> e n <> Arrives i ms) as NoA.
     { intros n i ms L I. assert (left_ s (t0 + t2) (S (n - (t0 + t2))) = left_ s (t0 + t2) (n - (t0 + t2))) as E
@@ -894,23 +980,25 @@ Section Area.
       unfold left_ in E; rewrite Nat.add_succ_r in E; replace (t0 + t2 + (n - (t0 + t2))) with n in E by lia.
       assert (forall i, i < N -> near (at_ s (S n) i) <= near (at_ s n i) /\ (near (at_ s (S n) i) = near (at_ s n i) ->
         forall ms, e n <> Arrives i ms)) as St
-        by (intros j J; exact (near_step s e G t2 n j (Kn t2 L2) ltac:(lia) J (A n j ltac:(lia) J))).
+        by (intros j J; exact (near_step s e G t2 n j (Kn t2 L2) ltac:(lia) J (proj1 (A n j ltac:(lia) J)))).
       apply (St i I). exact (total_same N (fun i => near (at_ s n i)) (fun i => near (at_ s (S n) i)) (fun i I => proj1 (St i I)) E i I). }
     assert (forall n, t <= n -> missed (e n) = false) as Hd by (intros; apply H; lia).
     assert (forall n i, t <= n -> i < N -> aligned s n i) as Al by (intros; apply A; auto; lia).
+    assert (forall n i, t <= n -> i < N -> fresh s n i) as Fr by (intros n i L I; apply A; auto; lia).
     apply (constant (lazy s t)).
-    { apply (lazy_falls s e G F t (Kn t ltac:(lia)) Hd Al NoA). }
+    { apply (lazy_falls s e G F t (Kn t ltac:(lia)) Hd Al Fr NoA). }
     intros k' W; assert (exists t', t' = t + k') as [t' Et'] by eauto.
     assert (forall n, t' <= n -> lazy s t' (n - t') = lazy s t' 0) as W'.
     { intros n L; unfold lazy in *; pose proof (W (n - t) ltac:(lia)) as E; rewrite Et'.
       replace (t + k' + (n - (t + k'))) with (t + (n - t)) by lia; rewrite Nat.add_0_r; exact E. }
     assert (forall n, t' <= n -> missed (e n) = false) as Hd' by (intros; apply H; lia).
     assert (forall n i, t' <= n -> i < N -> aligned s n i) as Al' by (intros; apply A; auto; lia).
+    assert (forall n i, t' <= n -> i < N -> fresh s n i) as Fr' by (intros n i L I; apply A; auto; lia).
     assert (forall n i ms, t' <= n -> i < N -> e n <> Arrives i ms) as NoA' by (intros; apply NoA; auto; lia).
     destruct (all_in_the_end (fun i u => t' <= u /\ forall n, u <= n -> flying s n i -> slot (s n) = i) N) as [u U].
     - intros i a b L [X Y]; split; [lia | intros; apply Y; auto; lia].
-    - intros i I; exact (own_slot s e G F t' (Kn t' ltac:(lia)) Hd' Al' NoA' W' i I).
-    - apply (late_run_ends s e G F t' (Kn t' ltac:(lia)) Hd' Al' NoA' W' (t' + u)); [lia|].
+    - intros i I; exact (own_slot s e G F t' (Kn t' ltac:(lia)) Hd' Al' Fr' NoA' W' i I).
+    - apply (late_run_ends s e G F t' (Kn t' ltac:(lia)) Hd' Al' Fr' NoA' W' (t' + u)); [lia|].
       intros n i L I; apply (proj2 (U i I)); lia.
   Qed.
 

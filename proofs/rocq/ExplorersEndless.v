@@ -86,10 +86,12 @@ Section Like.
     - destruct (i <? N) eqn:I; [apply Nat.ltb_lt in I | destruct (doing (robots w i)); discriminate].
       destruct (R i I) as [A [B [C [D [F [W [Nw To]]]]]]]; rewrite <- D. destruct (doing (robots w i)) as [|v|v]; try discriminate.
       destruct (negb _); [discriminate|]; rewrite <- (meets_like w w' i v L). destruct (meets V same N w i v) as [|k met] eqn:M.
-      + injection E as <-; eexists; split; [reflexivity|]; apply settle_like; split; [|auto]; cbn; rewrite <- F.
-        assert (like_robots (put (robots w) i (if obstacle v then blocks V same (robots w i) v else becomes V (robots w i) (Enters v) (aim (robots w i)) false))
-          (put (robots w') i (if obstacle v then blocks V same (robots w' i) v else becomes V (robots w' i) (Enters v) (aim (robots w i)) false))) as P.
-        { apply put_like; [exact R|]; destruct (obstacle v); [|apply become_like, R, I]; repeat split; cbn [explored blocked place doing aim waits news told blocks];
+      + injection E as <-; eexists; split; [reflexivity|]; apply settle_like; split; [|auto]; cbn [robots with_robots].
+        assert (late V same rl (robots w' i) v = late V same rl (robots w i) v) as La by (unfold late; now rewrite A, F).
+        rewrite La, <- F; set (r := if obstacle v then blocks _ _ (robots w i) _ else _); set (r' := if obstacle v then blocks _ _ (robots w' i) _ else _).
+        assert (like_robots (put (robots w) i r) (put (robots w') i r')) as P.
+        { apply put_like; [exact R|]; subst r r'; destruct (obstacle v); [|destruct (late V same rl (robots w i) v); [|apply become_like, R, I]];
+            repeat split; cbn [explored blocked place doing aim waits news told blocks turns];
             rewrite ?A, ?B, ?Nw; auto. }
         destruct (obstacle v); [now apply tells_like | exact P].
       + injection E as <-; eexists; split; [reflexivity|].

@@ -30,55 +30,20 @@ Section Area.
   Hypothesis rl_lasting : lasting V same cells beside rl.
   Hypothesis rl_keeping : keeping rl.
   Notation leads := (leads V same obstacle N rl).
+  Notation step_aim := (step_aim V same cells beside obstacle N same_spec beside_cells rl).
 
-  (** What a step makes of the claim of the robot that acts. *)
-  Lemma step_aim : forall w e w', leads w e w' -> forall i, i < N -> if acts V i e then match e with
-      | Decides _ _ c _ => aim (robots w' i) = Some c
-      | Looks _ _ _ _ => forall v, doing (robots w i) = Tries v ->
-          (meets V same N w i v <> [] /\ aim (robots w' i) = None)
-          \/ (meets V same N w i v = [] /\ obstacle v = true /\ In v (blocked (robots w' i)))
-          \/ (meets V same N w i v = [] /\ obstacle v = false /\ aim (robots w' i) = aim (robots w i))
-      | Arrives _ _ => forall v, doing (robots w i) = Enters v -> aim (robots w' i)
-          = match aim (robots w i) with Some c => if same c v then None else Some c | None => None end
-      | Ticks => True
-      end else aim (robots w' i) = aim (robots w i).
-  Proof.
-    assert (forall f j ms k, aim (tells V same f j ms k) = aim (f k)) as T
-      by (intros f j ms k; unfold tells; destruct ((k =? j) || is_in k ms); reflexivity).
-    assert (forall (f : nat -> robot V) l r, aim (fold_left (fun r j => hears V same r j (f j)) l r) = aim r) as H
-      by (intros f; induction l as [|k l IH]; intros r; cbn; [reflexivity | now rewrite IH]).
-    assert (forall f j l k, aim (is_told V same f j l k) = aim (f k)) as To by (intros f j l k; unfold is_told, put;
-      destruct (k =? j) eqn:K; [apply Nat.eqb_eq in K; subst; apply H | reflexivity]).
-    intros w e w' [x [E [A _]]] i I; rewrite <- A by exact I. clear A.
-    destruct e as [j v c ms | j ms un sl | j ms |]; cbn [next acts] in *.
-    - destruct (_ && _); [|discriminate]; injection E as <-; cbn [robots with_robots]. rewrite (proj1 rl_keeping), T; unfold put.
-      rewrite (Nat.eqb_sym i j); destruct (j =? i); reflexivity.
-    - destruct (doing (robots w j)) as [|v|v] eqn:D; try discriminate. destruct (negb _); [discriminate|].
-      destruct (meets V same N w j v) as [|k met] eqn:M; injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots with_robots].
-      + assert (forall o : bool, aim ((if o then tells V same (put (robots w) j (if o then blocks V same (robots w j) v
-          else becomes V (robots w j) (Enters v) (aim (robots w j)) false)) j ms else put (robots w) j (if o then
-          blocks V same (robots w j) v else becomes V (robots w j) (Enters v) (aim (robots w j)) false)) i)
-          = if (j =? i) && o then None else aim (robots w i)) as S.
-        { intros [|]; rewrite ?T; unfold put; rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:J; try reflexivity.
-          apply Nat.eqb_eq in J; now subst. }
-        destruct (j =? i) eqn:J; [apply Nat.eqb_eq in J; subst j | now rewrite S].
-        intros u U; rewrite D in U; injection U as <-; right. rewrite S; cbn [andb]; destruct (obstacle v); [left | right; auto].
-        repeat split; auto. unfold tells; rewrite Nat.eqb_refl; cbn [orb]; unfold put; rewrite Nat.eqb_refl; cbn.
-        apply (in_join V same cells beside same_spec beside_cells); cbn; auto.
-      + rewrite To, T; unfold put; rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:J; [|reflexivity].
-        apply Nat.eqb_eq in J; subst j; intros u U; rewrite D in U; injection U as <-; left; rewrite M; split; [discriminate | reflexivity].
-    - destruct (doing (robots w j)) as [|v|v] eqn:D; try discriminate. destruct (j <? N); [|discriminate].
-      injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots]. rewrite T; unfold put.
-      rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:J; [|reflexivity]. apply Nat.eqb_eq in J; subst j.
-      intros u U; rewrite D in U; injection U as <-; cbn. destruct (aim (robots w i)) as [c|]; [|reflexivity].
-      rewrite (proj1 rl_keeping); cbn; now destruct (same c v).
-    - destruct (may_tick _ _ _ _); [|discriminate]; injection E as <-; reflexivity.
-  Qed.
+  (** It looks into an explored cell that it has claimed, and turns back. *)
+  Definition goes_back (w : world V) (i : nat) : bool :=
+    match doing (robots w i) with
+    | Tries v => match meets V same N w i v with
+        | [] => negb (obstacle v) && late V same rl (robots w i) v | _ :: _ => false end
+    | Stands | Enters _ => false
+    end.
 
   (** What a step makes of news, where maps do not grow. *)
   Lemma step_news : forall w e w', leads w e w' -> forall i, i < N -> explored (robots w' i) = explored (robots w i) ->
     blocked (robots w' i) = blocked (robots w i) -> news (robots w' i) = match e with
-      | Looks j _ _ _ => if j =? i then false else news (robots w i) | _ => news (robots w i) end.
+      | Looks j _ _ _ => if j =? i then goes_back w i else news (robots w i) | _ => news (robots w i) end.
   Proof.
     assert (forall l x : list V, l ++ x = l -> x = []) as Nil.
     { intros l x E; rewrite <- (app_nil_r l) in E at 2; now apply app_inv_head in E. }
@@ -111,9 +76,11 @@ Section Area.
         /\ news (f i) = news (robots w i)) as [Fx [Fy Fn]]
         by (unfold f, put; rewrite (Nat.eqb_sym i j); destruct (j =? i) eqn:J; [apply Nat.eqb_eq in J; subst|]; auto).
       rewrite <- Fn; apply T; congruence.
-    - destruct (doing (robots w j)) as [|v|v]; try discriminate. destruct (negb _); [discriminate|].
-      destruct (meets V same N w j v) as [|k met]; injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots with_robots].
-      + destruct (obstacle v).
+    - destruct (doing (robots w j)) as [|v|v] eqn:D; try discriminate. destruct (negb _); [discriminate|].
+      destruct (meets V same N w j v) as [|k met] eqn:M; injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots with_robots];
+        assert (goes_back w j = match meets V same N w j v with [] => negb (obstacle v) && late V same rl (robots w j) v
+          | _ :: _ => false end) as Gb by (unfold goes_back; now rewrite D); rewrite M in Gb.
+      + destruct (obstacle v); cbn [negb andb] in Gb.
         * set (f := put _ _ _); intros X Y.
           assert (longer V (robots w i) (f i)) as [x [y [Fx Fy]]].
           { unfold f, put; destruct (i =? j) eqn:J; [apply Nat.eqb_eq in J; subst i|apply longer_self].
@@ -122,15 +89,16 @@ Section Area.
             by (unfold tells; destruct ((i =? j) || is_in i ms); [apply longer_self | apply longer_hears, longer_self]).
           rewrite Tx, Fx, <- app_assoc in X; rewrite Ty, Fy, <- app_assoc in Y; apply Nil, app_eq_nil in X; apply Nil, app_eq_nil in Y.
           destruct X as [-> ->], Y as [-> ->]; rewrite app_nil_r in *; rewrite (T f j ms i Tx Ty).
-          revert Fy; unfold f, put; rewrite (Nat.eqb_sym j i); destruct (i =? j) eqn:J; [apply Nat.eqb_eq in J; subst i|auto]; cbn; intros Fy.
+          revert Fy; unfold f, put; rewrite (Nat.eqb_sym j i); destruct (i =? j) eqn:J; [apply Nat.eqb_eq in J; subst i; rewrite Gb|auto]; cbn; intros Fy.
           exact (G _ _ Fy).
         * unfold put; rewrite (Nat.eqb_sym j i); destruct (i =? j) eqn:J; [apply Nat.eqb_eq in J; subst i|]; auto.
+          rewrite Gb; now destruct (late _ _ _ _ _).
       + set (f := tells V same _ j ms).
         assert (longer V (robots w i) (f i) /\ (explored (f i) = explored (robots w i) -> blocked (f i) = blocked (robots w i) ->
-          news (f i) = if j =? i then false else news (robots w i))) as [Lf Nf].
+          news (f i) = if j =? i then goes_back w i else news (robots w i))) as [Lf Nf].
         { set (g := put (robots w) j (becomes V (robots w j) Stands None true)) in f.
-          assert (explored (g i) = explored (robots w i) /\ blocked (g i) = blocked (robots w i) /\ news (g i) = if j =? i then false else news (robots w i)) as [Gx [Gy Gn]]
-            by (unfold g, put; rewrite (Nat.eqb_sym j i); destruct (i =? j) eqn:J; [apply Nat.eqb_eq in J; subst i|]; auto).
+          assert (explored (g i) = explored (robots w i) /\ blocked (g i) = blocked (robots w i) /\ news (g i) = if j =? i then goes_back w i else news (robots w i)) as [Gx [Gy Gn]]
+            by (unfold g, put; rewrite (Nat.eqb_sym j i); destruct (i =? j) eqn:J; [apply Nat.eqb_eq in J; subst i; rewrite Gb|]; auto).
           split; [|intros X Y; rewrite <- Gn; apply T; unfold f in *; congruence].
           unfold f, tells; destruct ((i =? j) || is_in i ms); [|apply longer_hears]; apply longer_same; auto. }
         rewrite (Nat.eqb_sym j i) in Nf |- *; unfold is_told, put; destruct (i =? j) eqn:J; [apply Nat.eqb_eq in J; subst i | exact Nf].
@@ -252,17 +220,25 @@ Section Area.
         unfold weight; rewrite Sd, Se, Ne; destruct (most (at_ (S n) i) =? _) eqn:Q, (most (at_ n i) =? _) eqn:Q'; try lia.
         apply Nat.eqb_eq in Q'; apply Nat.eqb_neq in Q; pose proof (settled_most _ Se); lia.
       - destruct O as [-> [v [D O]]]; rewrite D; specialize (A v D); rewrite Nat.eqb_refl in Nw.
+        assert (aimed (at_ n i) -> late V same rl (at_ n i) v = false) as Nl.
+        { intros S'; unfold aimed, late in *; destruct (aim (at_ n i)) as [a|]; [|apply andb_false_r].
+          apply not_true_iff_false; rewrite !andb_true_iff; intros [[_ Ex] Sa]; apply same_spec in Sa; subst a.
+          apply (has_in V same cells beside same_spec beside_cells) in Ex; destruct S' as [S' _].
+          apply targets_spec in S'; auto; tauto. }
+        assert (aimed (at_ n i) -> news (at_ (S n) i) = false) as Nw'.
+        { intros S'; rewrite Nw; unfold goes_back; fold (at_ n i); rewrite D; destruct (meets _ _ _ _ _ _); [|reflexivity].
+          now rewrite (Nl S'), andb_false_r. }
         assert (aimed (at_ n i) -> aimed (at_ (S n) i) /\ near (at_ (S n) i) = near (at_ n i)
           /\ ((doing (at_ (S n) i) = Enters v /\ most (at_ (S n) i) = most (at_ n i)) \/ aim (at_ (S n) i) = None)) as Core.
-        { intros S'; unfold aimed in S'; destruct (aim (at_ n i)) as [a|] eqn:Aim; [|congruence].
-          rewrite D in S'; destruct S' as [S1 S2].
+        { intros S'; pose proof (Nl S') as La; unfold aimed in S'; destruct (aim (at_ n i)) as [a|] eqn:Aim; [|congruence].
+          rewrite D in S'; destruct S' as [S1 S2]; rewrite La in O, A.
           destruct O as [[Me O]|[Me O]], A as [[Me' A]|[[Me' [Ob A]]|[Me' [Ob A]]]]; try congruence.
           - exfalso; rewrite B in A; apply targets_spec in S1; auto; apply firsts_spec in S2; auto.
             destruct S2 as [_ [[->|S2] _]]; [tauto|].
             destruct (FRONTIER_5 V same cells beside obstacle N same_spec beside_cells _ _ (runs V same cells obstacle N rl s e goes_on n) i I) as [F _].
             apply F in S2; apply (free_always V same cells obstacle N same_spec rl (s n)) in S2;
               [congruence | apply (runs V same cells obstacle N rl s e goes_on)].
-          - rewrite O, Ob in X; injection X as P D' W; destruct (Al (eq_sym P)) as [Ne Fi]; split; [|split; [exact Ne|]].
+          - rewrite O, Ob in X; cbn [orb] in X; injection X as P D' W; destruct (Al (eq_sym P)) as [Ne Fi]; split; [|split; [exact Ne|]].
             + unfold aimed; rewrite A, <- D', Fi, (Ta _ eq_refl), <- P; auto.
             + left; split; [auto|]; unfold most; now rewrite A, Aim, E, <- P.
           - rewrite O in X; injection X as P D' W; destruct (Al (eq_sym P)) as [Ne Fi].
@@ -270,15 +246,16 @@ Section Area.
         split; [|split; [congruence|]; intros S'; destruct (Core S') as [Ai [_ [[D' _]|A']]]; auto].
         destruct (settled (at_ n i)) eqn:Sd; [|now apply Un]. pose proof (settled_most _ Sd) as Mo.
         pose proof (proj1 (settled_iff _) Sd) as [_ Sa]; destruct (Core Sa) as [Ai [Ne H]].
-        assert (settled (at_ (S n) i) = true) as Se by (now apply settled_iff).
+        assert (settled (at_ (S n) i) = true) as Se by (apply settled_iff; auto).
         unfold weight; rewrite Sd, Se, Ne; destruct H as [[_ ->]|A']; [lia|].
         unfold most at 1 2; rewrite A', Ne, Nat.eqb_refl; lia.
       - destruct O as [-> [v [D O]]]; rewrite D; specialize (A v D); rewrite O in X; injection X as P D' W.
+        rewrite (proj1 rl_keeping) in A; cbn [andb] in A.
         assert (aimed (at_ n i) -> aimed (at_ (S n) i) /\ S (most (at_ (S n) i)) = most (at_ n i)) as Core.
         { intros S'; unfold aimed in S'; destruct (aim (at_ n i)) as [a|] eqn:Aim; [|congruence].
           rewrite D in S'; destruct S' as [S1 S2]; apply targets_spec in S1; auto; apply firsts_spec in S2; auto.
           destruct (is_placed (S n) i I) as [_ [Pl _]]; fold (at_ (S n) i) in Pl; rewrite <- P, E in Pl.
-          assert (same a v = false) as Ne by (apply not_true_iff_false; intros Q; apply same_spec in Q; subst; tauto). rewrite Ne in A.
+          assert (same a v = false) as Ne by (apply not_true_iff_false; intros Q; apply same_spec in Q; subst; tauto). rewrite Ne in A; cbn [negb] in A.
           assert (v <> a) as Na by (intros ->; tauto). split.
           - unfold aimed; rewrite A, <- D'; split; [|trivial]. rewrite <- P, (Ta _ (eq_sym P)); apply targets_spec; auto.
             repeat split; try tauto; lia.

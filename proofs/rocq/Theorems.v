@@ -96,6 +96,7 @@ Check Explorers.FRONTIER_5.
 Check Fixes.FRONTIER_6.
 Check Fixes.FRONTIER_7.
 Check Fused.FRONTIER_10.
+Check ExplorersOnce.FRONTIER_13.
 Check Fused.no_two_in_one_cell.
 Check Ants.ANTS_1.
 Check Ants.ANTS_2.
@@ -153,6 +154,7 @@ Check Ants.counting_is_needed.
 Check Ants.an_end_of_misses_is_needed.
 Check Ants.published_breaks_ANTS_3.
 Check ExplorersMutants.without_Route_breaks_FRONTIER_1.
+Check ExplorersMutants.without_Return_breaks_FRONTIER_13.
 Check ExplorersEndless.without_Keep_breaks_FRONTIER_3.
 Check Pack.published_breaks_PACK_1.
 Check Fixes.without_its_bound_FRONTIER_6_breaks.

@@ -1,4 +1,4 @@
-//! Frontier cells (Rajesh, Nagaraja and Suja 2024): the clauses FRONTIER-1 to FRONTIER-12 and what decides them.
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024): the clauses FRONTIER-1 to FRONTIER-13 and what decides them.
 
 pub mod areas;
 pub mod clauses;
@@ -6,8 +6,6 @@ mod detour;
 pub mod drift;
 mod fusion;
 pub mod local;
-#[cfg(test)]
-mod overlapping;
 mod pairs;
 mod place;
 mod readings;

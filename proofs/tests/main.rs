@@ -4,6 +4,7 @@ mod areas;
 mod certificates;
 mod charts;
 mod coverage;
+mod double_coverage;
 mod draw;
 mod evidence;
 mod exhausted;

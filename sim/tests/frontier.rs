@@ -91,7 +91,7 @@ fn clean_runs(rule: Rule, options: &Options, runs: u64) -> usize {
         loop {
             match team.advance() {
                 Err(ended) => return ended == TeamEnd::Known,
-                Ok(_) if team.is_wrong() || has_double(team.cells()) => return false,
+                Ok(_) if team.faults().0 || has_double(team.cells()) => return false,
                 Ok(_) => {}
             }
         }

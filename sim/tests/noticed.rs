@@ -32,7 +32,7 @@ use TeamSetting::{Apart, Dies, Miss, Noise, Nothing, OneByOne, Range, SightAndRa
 /// lacks, if it lacks one; the layout, the robots, the seed, and what else is told.
 type Case = (&'static str, bool, [&'static str; 3], (&'static str, u16, u64), TeamSetting);
 
-const CASES: [Case; 23] = [
+const CASES: [Case; 24] = [
     ("CHAIN-1", false, ["chain", "published", ""], ("cells:6x5:0.2", 6, 0), Nothing),
     ("CHAIN-2", false, ["chain", "published", "Distinct"], ("walls:7x5:0.2", 4, 3), Nothing),
     ("CHAIN-3", false, ["chain", "published", "SafeAhead"], ("walls:7x5:0.2", 3, 0), Nothing),
@@ -52,6 +52,7 @@ const CASES: [Case; 23] = [
     ("FRONTIER-2", false, ["frontier", "published", ""], ("cells:6x5:0.2", 3, 1), Nothing),
     ("FRONTIER-4", true, ["frontier", "published", ""], ("cells:6x5:0.2", 1, 0), Nothing),
     ("FRONTIER-5", false, ["frontier", "published", ""], ("cells:6x5:0.2", 3, 3), Noise),
+    ("FRONTIER-13", false, ["frontier", "published", ""], ("cells:6x5:0.2", 3, 1), Nothing),
     ("PACK-1", false, ["pack", "published", ""], ("cells:6x5:0.2", 2, 0), SightAndRange(3)),
     ("PACK-2", false, ["pack", "published", "Single"], ("cells:6x5:0.2", 3, 0), Nothing),
     ("PACK-3", true, ["pack", "published", ""], ("cells:6x5:0.2", 3, 1), SightAndRange(3)),

@@ -99,7 +99,7 @@ impl Game {
         let own = self.next(&self.settings)?;
         let mut without = Vec::new();
         for (bit, name) in (0..).zip(&names).filter(|(bit, _)| in_force >> bit & 1 == 1) {
-            let other = Settings { on: Some(in_force & !(1_u16 << bit)), ..self.settings.clone() };
+            let other = Settings { on: Some(in_force & !(1_u32 << bit)), ..self.settings.clone() };
             let Ok(other) = self.next(&other) else { continue };
             let since = own.0.iter().zip(&other.0).position(|(own, other)| own != other);
             let since =

@@ -48,7 +48,7 @@ fn scheme(scheme: Scheme) -> Value {
 }
 
 /// The names of the conditions of the rule of these settings, and those that are its own, a bit for each.
-pub(crate) fn conditions(settings: &Settings) -> Option<(Vec<String>, u16)> {
+pub(crate) fn conditions(settings: &Settings) -> Option<(Vec<String>, u32)> {
     let list = list();
     let named = |all: &Value, name: &str| all.as_array()?.iter().find(|one| one["name"] == name).cloned();
     let rule = named(&named(&list["schemes"], &settings.scheme)?["rules"], &settings.rule)?;

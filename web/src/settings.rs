@@ -22,7 +22,7 @@ pub struct Settings {
     /// One of its rules.
     pub rule: String,
     /// The conditions in force, a bit for each, where they are not the rule's own.
-    pub on: Option<u16>,
+    pub on: Option<u32>,
     /// Robots, the base counted if there is one.
     pub robots: u16,
     /// The seed of whatever is left to chance.
@@ -55,7 +55,7 @@ const SOUTH: u8 = 4;
 
 impl Settings {
     /// The settings that make the run of `setup`, with these conditions in force.
-    pub(crate) fn of(setup: &Setup, on: Option<u16>) -> Self {
+    pub(crate) fn of(setup: &Setup, on: Option<u32>) -> Self {
         let Setup {
             scheme,
             rule,
@@ -168,7 +168,7 @@ impl Settings {
     }
 
     /// The conditions that are in force, if they are not those of the rule.
-    pub(crate) fn switched(&self) -> Option<u16> {
+    pub(crate) fn switched(&self) -> Option<u32> {
         let own = self.rule().ok()?.switches?.in_force();
         self.on.filter(|&on| on != own)
     }

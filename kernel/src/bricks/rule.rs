@@ -5,7 +5,7 @@ use crate::floor::SensorFate;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u16 {
         /// Two side neighbours are connected past the cell only if the corner between them can be gone through.
         Corners,
         /// Repair: an agent marks its cell as visited only if no other agent is in it or on its way into it.

@@ -4,7 +4,7 @@ use crate::conditions;
 
 conditions! {
     /// One habit of the reel, by the sentence it stands for.
-    pub enum Habit {
+    pub enum Habit in u16 {
         /// A task is begun only if a rehearsal on the known map carries it through.
         Rehearses,
         /// Each team move of an approach brings the robot that approaches one cell nearer.

@@ -8,7 +8,7 @@ use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps};
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u16 {
         /// A follower plans to be in E_S of the planned position ahead: P′_i ∈ E_S(P′_{i+1}).
         SafeAhead,
         /// A robot plans to be in E_C of the present position behind: P′_i ∈ E_C(P_{i−1}).

@@ -109,10 +109,9 @@ pub struct Robot<M> {
 impl<M: Map> Robot<M> {
     /// A robot in its start, all of which are explored; it knows nothing else of `map`.
     pub fn new(mut map: M, start: Cell, starts: &[Cell]) -> Self {
-        for &cell in starts {
+        for &cell in starts.iter().chain([&start]) {
             map.explore(cell);
         }
-        map.explore(start);
         let stance = Stance::Stands;
         Self { map, at: start, stance, aim: None, waits: false, has_news: true, threshold: None }
     }
@@ -269,15 +268,16 @@ impl<M: Map> Robot<M> {
     pub fn looked(&mut self, rule: &Rule, sight: Sight) {
         let Stance::Tries(side) = self.stance else { return };
         let cell = self.at.beyond(side);
-        let is_new = sight == Sight::Open && self.map.status(cell) != Status::Explored;
-        self.has_news = is_new || !rule.has(Condition::Keep);
-        (self.stance, self.waits) = (Stance::Stands, false);
+        let is_explored = self.map.status(cell) == Status::Explored;
+        let returns = is_explored && self.aim == Some(cell) && rule.has(Condition::Return);
+        self.has_news = sight == Sight::Open && (returns || !is_explored) || !rule.has(Condition::Keep);
+        let enters = sight == Sight::Open && !returns;
+        self.stance = if enters { Stance::Enters(side) } else { Stance::Stands };
+        self.waits = sight == Sight::Robot && rule.has(Condition::Turn);
         let is_obstacle = match sight {
-            Sight::Open => {
-                self.stance = Stance::Enters(side);
-                return;
-            }
+            Sight::Open if enters => return,
             Sight::Small if rule.has(Condition::Detour) => return,
+            Sight::Open => false,
             Sight::Obstacle | Sight::Small => true,
             Sight::Robot => !rule.has(Condition::Tell),
         };
@@ -285,7 +285,6 @@ impl<M: Map> Robot<M> {
             self.hears(cell, Status::Obstacle);
         }
         self.aim = None;
-        self.waits = sight == Sight::Robot && rule.has(Condition::Turn);
     }
 
     /// It has arrived, and `fix` is the cell that its position is taken for.

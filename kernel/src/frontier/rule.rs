@@ -10,7 +10,7 @@ use crate::position::{Belief, Gate, Odometry, Point};
 conditions! {
     /// One condition of the rule, by the sentence it stands for. As published there are none but [`Condition::Record`]
     /// and [`Condition::Detour`], and not even the first one if the paper's avoidance of obstacles is taken literally.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u32 {
         /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
         /// unexplored one.
         Route,
@@ -55,6 +55,9 @@ conditions! {
         /// it has claimed, and to a nearest one if it has claimed none, as after it has met another robot. So each move
         /// leads nearer to a cell that is left, whatever the others have told.
         Keep,
+        /// Repair: a robot at the rim of a cell that it took for unexplored, and that its map has for explored by then,
+        /// turns back: another one has been there.
+        Return,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u16 {
         /// A robot drives to a node in reach of the node where the other one goes (section 4).
         NextInReach,
         /// Repair: and in reach of the node that the other one has left, so that both hear each other at any speeds.

@@ -6,7 +6,7 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u16 {
         /// A free robot asks for the call of least HC.
         NearestCall,
         /// A WFR chooses the robot of least MHC.

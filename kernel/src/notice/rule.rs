@@ -8,7 +8,7 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u16 {
         /// From forwarding on, a node's parent and hop count stay what they are. Without it, a NOTICE with a hop count
         /// up to the node's own makes its sender the parent.
         FrozenOnceForwarded,

@@ -6,7 +6,7 @@ use crate::ground::{Cell, Circle};
 
 crate::conditions! {
     /// A condition of the rule.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u16 {
         /// A robot takes a step only if the team is connected after it: the links join all robots, so they have a
         /// spanning tree.
         Connect,

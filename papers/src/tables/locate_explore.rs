@@ -289,7 +289,7 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
         for off in team.errors() {
             (squares, count) = (squares + off * off, count + 1);
         }
-        is_clean &= !team.is_wrong() && !has_double(team.cells());
+        is_clean &= !team.faults().0 && !has_double(team.cells());
         for &cell in team.cells() {
             if !seen.contains(&cell) {
                 seen.push(cell);

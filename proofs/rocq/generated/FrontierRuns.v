@@ -126,7 +126,14 @@ Definition runs_PLAIN : list ((nat * nat * nat) * list nat * list nat * list (li
   ([(1,0)],false,Looks 0 [1;2] [] 0);([(0,2);(1,0)],true,Decides 1 0 0 []);([(0,2)],true,Ticks);
   ([(0,2)],false,Decides 0 2 2 []);([],false,Looks 1 [] [] 1);([],false,Looks 0 [] [] 1);([],false,Arrives 0 []);
   ([(0,1)],false,Arrives 1 []);([(0,1);(1,1)],true,Decides 0 1 1 []);([(1,1)],true,Looks 0 [] [] 0)],
-  [([0;2;3;4;5;6],[1;7],2);([0;2;3;4;5;6],[1;7],0);([0;2;3;4;5;6],[1;7],3)])].
+  [([0;2;3;4;5;6],[1;7],2);([0;2;3;4;5;6],[1;7],0);([0;2;3;4;5;6],[1;7],3)]);
+ ((2,4,1),[],[0;2],
+  [([(0,1);(1,1);(1,3)],false,Decides 1 1 1 []);([(0,1)],false,Looks 1 [] [] 0);([(0,1)],false,Decides 0 1 1 []);
+  ([],false,Arrives 1 []);([(1,2)],false,Decides 1 2 3 []);([],false,Looks 1 [] [] 0);([],false,Arrives 1 []);
+  ([(1,3)],false,Looks 0 [] [] 0);([(0,1);(1,3)],false,Decides 0 1 3 []);([(1,3)],false,Looks 0 [] [] 0);
+  ([(1,3)],false,Arrives 0 []);([(0,2);(1,3)],false,Decides 1 3 3 []);([(0,2)],false,Decides 0 2 3 []);
+  ([],false,Looks 0 [] [] 0);([],true,Looks 1 [] [] 0);([],true,Ticks);([],false,Arrives 1 [])],
+  [([0;1;2;3],[],1);([0;1;2;3],[],3)])].
 Definition runs_REPAIRED : list ((nat * nat * nat) * list nat * list nat * list (list (nat * nat) * bool * event nat)
   * list (list nat * list nat * nat)) := [
  ((1,3,3),[6;0],[3],
@@ -251,6 +258,13 @@ Definition runs_REPAIRED : list ((nat * nat * nat) * list nat * list nat * list 
   ([],false,Looks 2 [] [] 0);([],false,Arrives 1 []);([(1,1)],false,Decides 1 1 3 []);([],false,Looks 1 [] [] 0);
   ([],false,Arrives 1 []);([(1,2)],false,Decides 1 2 3 []);([],false,Looks 0 [] [] 0);([],false,Looks 1 [] [] 0)],
   [([0;1;2;4;6;7],[3;5],2);([0;1;2;4;6;7],[3;5],1);([0;1;2;4;6;7],[3;5],7)]);
+ ((2,5,1),[],[2;4],
+  [([(0,3);(1,3)],false,Decides 0 3 3 []);([(1,3)],false,Looks 0 [] [] 0);([(1,3)],false,Decides 1 3 3 []);
+  ([],false,Arrives 0 []);([(0,2)],false,Decides 0 2 1 []);([],false,Looks 0 [] [] 0);([],false,Arrives 0 []);
+  ([(0,1)],false,Looks 1 [] [] 0);([(0,1);(1,3)],false,Decides 0 1 1 []);([(1,3)],false,Looks 0 [] [] 0);
+  ([(1,3)],false,Arrives 0 []);([(0,0);(1,3)],false,Decides 1 3 0 []);([(0,0)],false,Decides 0 0 0 []);
+  ([],false,Looks 0 [] [] 0);([],false,Arrives 0 []);([],false,Looks 1 [] [] 0);([],false,Arrives 1 [])],
+  [([0;1;2;3;4],[],0);([0;1;2;3;4],[],3)]);
  ((4,4,3),[0],[9;10;5;2],
   [([(0,8);(1,11);(2,6);(3,1)],false,Decides 0 8 8 []);([(1,11);(2,6);(3,1)],false,Looks 0 [] [] 0);
   ([(1,11);(2,6);(3,1)],false,Decides 1 11 11 []);([(2,6);(3,1)],false,Arrives 0 []);

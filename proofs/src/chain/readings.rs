@@ -9,7 +9,7 @@ use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 
 conditions! {
     /// A reading other than the published one, by the sentence it stands for.
-    pub enum Reading {
+    pub enum Reading in u16 {
         /// The robots start in a row from the base to the east, over sides that are known to be open.
         InARow,
         /// The null move stands at the end of the leader's list.

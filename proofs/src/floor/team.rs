@@ -32,7 +32,7 @@ pub(crate) enum Turns {
 
 conditions! {
     /// A property of the floor by another reading than the published one; agents know nothing of it.
-    pub enum FloorProperty {
+    pub enum FloorProperty in u16 {
         /// The cell in which an agent starts counts nothing until the agent enters it.
         UncountedStart,
         /// In some cells, as many as sensors may be missed, sensors are always missed.

@@ -199,7 +199,9 @@ fn written(event: &Event) -> Option<judge::Step> {
         Event::Looks(robot, _, Sight::Open, ..) => (robot, judge::What::Enters, None, None),
         Event::Looks(robot, _, Sight::Obstacle, 0, _) => (robot, judge::What::IsBarred, None, None),
         Event::Arrives(robot, fix, 0) => (robot, judge::What::Arrives, None, Some(place(fix))),
-        Event::Decides(..) | Event::Looks(..) | Event::Arrives(..) | Event::Ticks => return None,
+        Event::Decides(..) | Event::Looks(..) | Event::Returns(..) | Event::Arrives(..) | Event::Ticks => {
+            return None;
+        }
     };
     Some(judge::Step { robot, what, side, fix })
 }
@@ -224,6 +226,9 @@ pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
                 }
                 Sight::Robot => format!("R{name} meets a robot in the {side}{}", missed(lost)),
             })
+        }
+        Event::Returns(robot, side) => {
+            Some(format!("R{} turns back from the rim in the {}", robot + 1, run::name_of(side)))
         }
         Event::Arrives(robot, fix, lost) => {
             let cell = cells.get(robot)?;

@@ -1,8 +1,8 @@
 //! The clauses of frontier cells, in the order of `SPEC.md`.
 
 use tautline_kernel::frontier::Condition::{
-    self, Claim, Corner, Detour, Fuse, Gate, Keep, Lapse, Look, Nearer, Record, Route, Share, Sure, Tell,
-    Track, Turn,
+    self, Claim, Corner, Detour, Fuse, Gate, Keep, Lapse, Look, Nearer, Record, Return, Route, Share, Sure,
+    Tell, Track, Turn,
 };
 use tautline_kernel::frontier::{Basis, Occupancy, Rule};
 
@@ -59,6 +59,10 @@ const ENDS_OF_TWO: [Reading<Rule>; 31] = holding(OF_TEAMS, [3, 5, 7, 11, 13, 15,
 const MARKS_OF_TWO: [Reading<Rule>; 31] =
     holding(OF_TEAMS, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 19, 20, 21, 22, 27, 28, 29, 30]);
 
+/// As (11) is printed, no robot enters a frontier cell.
+const ONCE: [Reading<Rule>; 31] =
+    holding(OF_TEAMS, [3, 4, 5, 6, 11, 12, 13, 14, 19, 20, 21, 22, 27, 28, 29, 30]);
+
 /// One condition taken out of a rule, under its name.
 const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
     let name = match condition {
@@ -78,6 +82,7 @@ const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
         Detour => "small obstacles fill cells",
         Lapse => "stale claims",
         Keep => "farther cells without news",
+        Return => "nobody turns back",
     };
     NamedRule::new(name, rule.without(condition))
 }
@@ -100,7 +105,7 @@ const SMALLEST: [Size; 5] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)];
 /// The areas of one robot.
 const ONE: [Size; 9] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2), (4, 2), (3, 3)];
 /// Those of two.
-pub(super) const TWO: [Size; 6] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
+const TWO: [Size; 6] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
 /// The areas of two robots with preferences, which have fewer states.
 const TWO_REPAIRED: [Size; 7] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2), (4, 2)];
 /// Those of three.
@@ -125,6 +130,11 @@ const fn two(demand: Demand) -> Areas<2> {
 
 const fn three(demand: Demand) -> Areas<3> {
     Areas { sizes: &THREE, covers: &ALL, ..smallest(demand) }
+}
+
+/// These areas for a team of whom a robot turns back.
+const fn turned_back<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
+    Areas { covers: &["a way back", "an open cell"], ..areas }
 }
 
 /// These areas for a team of whose messages one may be lost.
@@ -204,7 +214,7 @@ const OCCUPANCIES: [Reading<Occupancy>; 2] =
     holding([("circle", Occupancy::Corrected), (SIDES.name, SIDES.rule)], [0]);
 
 /// The clauses.
-pub const CLAUSES: [Clause; 12] = [
+pub const CLAUSES: [Clause; 13] = [
     Clause {
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
@@ -416,5 +426,25 @@ pub const CLAUSES: [Clause; 12] = [
                 NamedRule::new("ten steps", Round::TEN_STEPS),
             ],
         )],
+    },
+    Clause {
+        id: "FRONTIER-13",
+        sentence: "A robot MUST never enter as its frontier cell one that a robot has entered before.",
+        checks: &[
+            &Check::refuted(PUBLISHED, &Areas { sizes: &TWO, ..smallest::<2>(Demand::Once) })
+                .under(&ONCE)
+                .of(&PAPER),
+            &Check::holds(PLAIN, &turned_back(two(Demand::Once)), &[plain(Return), plain(Look)]),
+            &Check::holds(PLAIN, &turned_back(three(Demand::Once)), &[plain(Return), plain(Look)]),
+            &Check::holds(PLAIN, &lossy(turned_back(two(Demand::Once))), &[plain(Return)]),
+            &Check::holds(
+                REPAIRED,
+                &turned_back(two_repaired(Demand::Once)),
+                &[repaired(Return), repaired(Look)],
+            ),
+            &Check::holds(REPAIRED, &turned_back(three(Demand::Once)), &[repaired(Return), repaired(Look)]),
+            &Check::holds(REPAIRED, &lossy(turned_back(two_repaired(Demand::Once))), &[repaired(Return)]),
+            &Check::holds(REPAIRED, &lossy(turned_back(three(Demand::Once))), &[repaired(Return)]),
+        ],
     },
 ];

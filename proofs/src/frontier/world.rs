@@ -32,11 +32,13 @@ pub enum Demand {
     Knows,
     /// FRONTIER-5: repositories are true.
     Marks,
+    /// FRONTIER-13: no cell is explored twice.
+    Once,
 }
 
 impl Demand {
     /// All of them, in the order of their clauses.
-    pub const ALL: [Self; 5] = [Self::Covers, Self::Alone, Self::Ends, Self::Knows, Self::Marks];
+    pub const ALL: [Self; 6] = [Self::Covers, Self::Alone, Self::Ends, Self::Knows, Self::Marks, Self::Once];
 
     /// The clause that it is of.
     pub const fn clause(self) -> &'static str {
@@ -46,6 +48,7 @@ impl Demand {
             Self::Ends => "FRONTIER-3",
             Self::Knows => "FRONTIER-4",
             Self::Marks => "FRONTIER-5",
+            Self::Once => "FRONTIER-13",
         }
     }
 
@@ -57,6 +60,7 @@ impl Demand {
             Self::Ends => "no run goes on for ever",
             Self::Knows => "every robot knows at the end that nothing is left",
             Self::Marks => "explored is where a robot was, and an obstacle is where one stands",
+            Self::Once => "no robot enters a frontier cell that one has entered before",
         }
     }
 }
@@ -93,6 +97,8 @@ pub struct World<const ROBOTS: usize> {
     told: [[Option<Other>; ROBOTS]; ROBOTS],
     /// The cells entered, and the obstacles that were met.
     truth: TinyMap,
+    /// Robots that are on their way to their frontier cells, a bit for each.
+    heading: u8,
     lost: u8,
     wrong: u8,
     small: u8,
@@ -112,6 +118,8 @@ pub enum Event {
     /// A robot looks beyond the rim. The robots that miss what it says have a bit each; and the slot that it is when it
     /// begins to wait.
     Looks(usize, Side, Sight, u8, u8),
+    /// A robot looks beyond the rim, into an explored cell that it took for unexplored, and turns back.
+    Returns(usize, Side),
     /// A robot arrives, takes itself to be in this cell, and tells; the robots that miss it have a bit each.
     Arrives(usize, Cell, u8),
     /// A slot is over.
@@ -225,6 +233,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             cells,
             told,
             truth,
+            heading: 0,
             lost: 0,
             wrong: 0,
             small: 0,
@@ -350,6 +359,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     ) -> Successor<ROBOTS> {
         let mut after = *world;
         let others: Vec<Other> = world.told_in_turn(robot).collect();
+        let known = &world.robots[robot];
+        let is_new = known.map.status(known.at().beyond(side)) == Status::Unexplored;
+        after.heading |= u8::from(is_new) << robot;
         after.robots[robot].decided(&self.rule, &others);
         after.robots[robot].tries(side, aim);
         let missed = if self.rule.has(Condition::Claim) {
@@ -379,14 +391,21 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         };
         after.robots[robot].looked(&self.rule, sight);
         after.small += u8::from(sight == Sight::Small);
+        after.heading &= !(1 << robot);
+        let returns = sight == Sight::Open && after.robots[robot].stance() == Stance::Stands;
         let mut breaks = Vec::new();
         let mut missed = 0;
         match sight {
+            Sight::Open if returns => {}
             Sight::Open => {
-                after.truth.explore(cell);
+                let is_new = world.heading >> robot & 1 == 1;
+                if self.is_wanted(Demand::Once) && is_new && world.truth.status(cell) == Status::Explored {
+                    breaks.push(Demand::Once);
+                }
                 if self.is_wanted(Demand::Alone) && world.inside(robot, cell, Rim::No) != 0 {
                     breaks.push(Demand::Alone);
                 }
+                after.truth.explore(cell);
             }
             Sight::Small if self.rule.has(Condition::Detour) => {}
             Sight::Robot if !self.are_obstacles() => {
@@ -412,7 +431,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             }
         }
         self.settle(&mut after, &mut breaks);
-        let event = Event::Looks(robot, side, sight, missed, after.slot);
+        let event = if returns {
+            Event::Returns(robot, side)
+        } else {
+            Event::Looks(robot, side, sight, missed, after.slot)
+        };
         Successor { world: after, event, breaks }
     }
 

@@ -1,6 +1,6 @@
-//! The judge of FRONTIER: runs of robots that explore cells (FRONTIER-1 to FRONTIER-5), of one whose fixes are off
-//! by parts of a cell ([`Drift`]: FRONTIER-5), and the occupancy probability ([`Occupancy`]: FRONTIER-8), all by the
-//! rules without repairs. It knows the sentences of `SPEC.md` alone.
+//! The judge of FRONTIER: runs of robots that explore cells (FRONTIER-1 to FRONTIER-5, FRONTIER-13), of one whose fixes
+//! are off by parts of a cell ([`Drift`]: FRONTIER-5), and the occupancy probability ([`Occupancy`]: FRONTIER-8), all
+//! by the rules without repairs. It knows the sentences of `SPEC.md` alone.
 
 mod drift;
 
@@ -79,7 +79,8 @@ plain!(What one of Decides, Enters, IsBarred, Arrives);
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Stance {
     Stands,
-    Tries(usize),
+    /// It goes to this side of its cell, and whether it took the cell beyond for unexplored.
+    Tries(usize, bool),
     Enters(usize),
 }
 
@@ -139,16 +140,20 @@ impl Case for Run {
                 acting.insert(step.robot);
                 awake.retain(|&robot| self.is_awake(&team.robots[robot]));
             }
+            let is_double = is_double(&team, step);
             self.step(&mut team, step).map_err(object)?;
-            if let "FRONTIER-2" | "FRONTIER-5" = self.clause {
-                let breaks = if self.clause == "FRONTIER-2" { meets(&team) } else { self.is_wrong(&team) };
-                breaks_at_last(breaks, number == steps.len()).map_err(object)?;
-            }
+            let breaks = match self.clause {
+                "FRONTIER-2" => meets(&team),
+                "FRONTIER-5" => self.is_wrong(&team),
+                "FRONTIER-13" => is_double,
+                _ => continue,
+            };
+            breaks_at_last(breaks, number == steps.len()).map_err(object)?;
         }
         must(floor.barred.is_subset(&team.met), "an obstacle was never met")?;
         let is_over = team.robots.iter().all(|robot| !self.is_awake(robot));
         match self.clause {
-            "FRONTIER-2" | "FRONTIER-5" => Ok(must(!steps.is_empty(), "nothing happens")?),
+            "FRONTIER-2" | "FRONTIER-5" | "FRONTIER-13" => Ok(must(!steps.is_empty(), "nothing happens")?),
             "FRONTIER-3" => {
                 must(before.is_some_and(|before| before == team), "the last steps lead elsewhere")?;
                 Ok(must(awake.is_subset(&acting), "a robot that may act never does")?)
@@ -183,6 +188,13 @@ impl Run {
         }
         false
     }
+}
+
+/// Whether a robot enters its frontier cell in this step, and one has entered that before.
+fn is_double(team: &Team, step: &Step) -> bool {
+    let Some(robot) = team.robots.get(step.robot) else { return false };
+    let Stance::Tries(side, true) = robot.stance else { return false };
+    step.what == What::Enters && beside(robot.cell, side).is_some_and(|cell| team.entered.contains(&cell))
 }
 
 /// Whether two robots are in one cell, or one enters a cell with another one in it.
@@ -239,13 +251,15 @@ impl Run {
         match (step.what, robot.stance) {
             (What::Decides, Stance::Stands) => {
                 let side = step.side.filter(|side| self.choices(&robot).contains(side));
-                team.robots[own].stance = Stance::Tries(side.ok_or("the rule does not go there")?);
+                let side = side.ok_or("the rule does not go there")?;
+                let is_known = beside(robot.at, side).is_some_and(|cell| robot.known.contains_key(&cell));
+                team.robots[own].stance = Stance::Tries(side, !is_known);
                 // An adaptive threshold is above 0 where another robot is in one of the four neighbours.
                 let mut near = (0..4).filter_map(|side| beside(robot.at, side));
                 let is_alone = !near.any(|cell| robot.told.contains(&cell));
                 team.robots[own].is_shut = self.rule == Rule::AdaptiveLiteral && is_alone;
             }
-            (What::Enters | What::IsBarred, Stance::Tries(side)) => {
+            (What::Enters | What::IsBarred, Stance::Tries(side, _)) => {
                 let cell = beside(robot.cell, side).ok_or("there is no such side")?;
                 let is_barred = step.what == What::IsBarred;
                 must(is_barred != self.floor.is_free(cell), "there is an obstacle, or there is none")?;

@@ -23,6 +23,7 @@ struct Situations {
     slots: usize,
     missed: usize,
     wrong: usize,
+    returns: usize,
 }
 
 /// Of each rule's runs: robots, columns and rows; the obstacles and the starts; of each step the first
@@ -40,11 +41,12 @@ pub(super) fn terms() -> String {
         runs.push(run::<3>(rule, (3, 3), &mut draw, &mut met));
         runs.extend((0..6).map(|_| run::<3>(rule, (5, 1), &mut draw, &mut met)));
         runs.extend((0..4).map(|_| run::<3>(rule, (4, 2), &mut draw, &mut met)));
-        let Situations { obstacles, meetings, slots, missed, wrong } = met;
+        let Situations { obstacles, meetings, slots, missed, wrong, .. } = met;
         assert!(
             obstacles > 10 && meetings > 10 && slots > 5 && missed > 5 && wrong > 3,
             "{obstacles} {meetings} {slots} {missed} {wrong}"
         );
+        runs.push(with_a_return(rule, &mut met));
         if rule.has(Condition::Keep) {
             runs.push(with_an_end());
         }
@@ -109,7 +111,7 @@ fn step<const ROBOTS: usize>(
             Event::Decides(robot, side, ..) => {
                 Some(format!("({robot},{})", number(world.robots()[robot].at().beyond(side))))
             }
-            Event::Looks(..) | Event::Arrives(..) | Event::Ticks => None,
+            Event::Looks(..) | Event::Returns(..) | Event::Arrives(..) | Event::Ticks => None,
         })
         .collect();
     might.dedup();
@@ -144,32 +146,63 @@ fn place_without_end(rule: Rule) -> (Setting<4>, [Cell; 4]) {
 /// are missed then: it ends.
 fn with_an_end() -> String {
     let (setting, starts) = place_without_end(Rule::REPAIRED);
-    let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
-    let mut said = WITHOUT_END.iter().flat_map(|events| events.split(" | "));
-    let mut draw = Draw(2024);
-    let mut taken = 0;
-    let blocked = [Cell::new(0, 0)];
-    let story = story(&setting, (starts, &blocked), &mut Situations::default(), |world, turns| {
-        let event = |turn: &Successor<4>| event(world, &turn.event, number, &mut Situations::default());
-        if let Some(place) = said.next().and_then(|said| turns.iter().position(|turn| event(turn) == said)) {
-            taken += 1;
-            return place;
-        }
-        said.by_ref().for_each(drop);
-        let is_heard = |turn: &&Successor<4>| match turn.event {
-            Event::Decides(.., missed) | Event::Looks(.., missed, _) | Event::Arrives(.., missed) => {
-                missed == 0
-            }
-            Event::Ticks => true,
-        };
-        let heard: Vec<usize> = (0..turns.len()).filter(|&place| is_heard(&&turns[place])).collect();
-        heard[draw.below(heard.len() as u64) as usize]
-    });
+    let said: Vec<&str> = WITHOUT_END.iter().flat_map(|events| events.split(" | ")).collect();
+    let (story, taken) =
+        beginning_as(&setting, (starts, &[Cell::new(0, 0)]), &said, &mut Situations::default());
     assert!(
         taken >= WITHOUT_END[0].split(" | ").count(),
         "the first part happens, and its messages are missed"
     );
     story
+}
+
+/// A run of two robots in a row of so many cells, one of which explores a cell and goes on while the other one is at its
+/// rim, and turns back.
+fn with_a_return(rule: Rule, met: &mut Situations) -> String {
+    let (cells, starts, said) = if rule.has(Condition::Nearer) {
+        let said = "Decides 0 3 3 [] | Looks 0 [] [] 0 | Decides 1 3 3 [] | Arrives 0 [] | Decides 0 2 1 []";
+        (5, [2, 4], [said, "Looks 0 [] [] 0 | Arrives 0 [] | Looks 1 [] [] 0"])
+    } else {
+        let said = "Decides 1 1 1 [] | Looks 1 [] [] 0 | Decides 0 1 1 [] | Arrives 1 [] | Decides 1 2 3 []";
+        (4, [0, 2], [said, "Looks 1 [] [] 0 | Arrives 1 [] | Looks 0 [] [] 0"])
+    };
+    let setting = setting::<2>(rule, (cells, 1)).expect("a small area");
+    let setting = Setting { given: TinyMap::new(setting.area), ..setting };
+    let said: Vec<&str> = said.iter().flat_map(|events| events.split(" | ")).collect();
+    let (story, taken) = beginning_as(&setting, (starts.map(|x| Cell::new(x, 0)), &[]), &said, met);
+    assert_eq!((taken, met.returns), (said.len(), 1), "a robot turns back");
+    story
+}
+
+/// A run in which these events happen, as long as they may, and then any in which no message is missed: with how many
+/// of them it begins.
+fn beginning_as<const ROBOTS: usize>(
+    setting: &Setting<ROBOTS>,
+    (starts, blocked): ([Cell; ROBOTS], &[Cell]),
+    said: &[&str],
+    met: &mut Situations,
+) -> (String, usize) {
+    let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
+    let (mut draw, mut taken, mut goes_on) = (Draw(2024), 0, true);
+    let story = story(setting, (starts, blocked), met, |world, turns| {
+        let event = |turn: &Successor<ROBOTS>| event(world, &turn.event, number, &mut Situations::default());
+        let is_next =
+            |turn: &Successor<ROBOTS>| goes_on && said.get(taken).is_some_and(|&said| event(turn) == said);
+        if let Some(place) = turns.iter().position(is_next) {
+            taken += 1;
+            return place;
+        }
+        goes_on = false;
+        let is_heard = |turn: &&Successor<ROBOTS>| match turn.event {
+            Event::Decides(.., missed) | Event::Looks(.., missed, _) | Event::Arrives(.., missed) => {
+                missed == 0
+            }
+            Event::Returns(..) | Event::Ticks => true,
+        };
+        let heard: Vec<usize> = (0..turns.len()).filter(|&place| is_heard(&&turns[place])).collect();
+        heard[draw.below(heard.len() as u64) as usize]
+    });
+    (story, taken)
 }
 
 /// That run: after the second part every robot is as it was after the first one.
@@ -242,6 +275,10 @@ fn event<const ROBOTS: usize>(
                 Stance::Stands | Stance::Tries(_) => true,
             });
             format!("Arrives {robot} {}", those(missed))
+        }
+        Event::Returns(robot, _) => {
+            met.returns += 1;
+            format!("Looks {robot} [] [] 0")
         }
         Event::Ticks => {
             met.slots += 1;

@@ -10,7 +10,7 @@ use tautline_kernel::frontier::{Condition, Rule as Frontier};
 use tautline_kernel::position::Odometry;
 
 use self::hunt::{KernelHunt, RivalHunt};
-pub use self::team::{ALONE, COVERS, ENDS, KNOWS, MARKS};
+pub use self::team::{ALONE, COVERS, ENDS, KNOWS, MARKS, ONCE};
 use self::team::{Who, team};
 use super::script::by_robots;
 use super::switches::searched;
@@ -88,6 +88,7 @@ pub static FRONTIER: Profile = Profile {
         Clause::new(ENDS.as_str()),
         Clause::new(KNOWS.as_str()),
         Clause::new(MARKS.as_str()),
+        Clause::new(ONCE.as_str()),
     ],
     case: |setup, clause, _| super::team(setup).ok()?.case(&setup.layout, clause),
     ..Profile::named("frontier")

@@ -146,16 +146,16 @@ pub trait Switches: fmt::Debug + Sync {
     fn conditions(&self) -> &'static [(&'static str, &'static str)];
 
     /// Those in force, a bit for each in their order.
-    fn in_force(&self) -> u16;
+    fn in_force(&self) -> u32;
 
     /// The team of a setup, with these conditions in force and no others.
     ///
     /// # Errors
     /// A [`Diagnostic`] if the setup does not fit its scheme.
-    fn start(&self, setup: &Setup, in_force: u16) -> Result<Box<dyn Team>, Diagnostic>;
+    fn start(&self, setup: &Setup, in_force: u32) -> Result<Box<dyn Team>, Diagnostic>;
 
     /// The hunt with these conditions in force and no others, if there is one.
-    fn hunt(&self, in_force: u16) -> Option<Box<dyn Hunt>>;
+    fn hunt(&self, in_force: u32) -> Option<Box<dyn Hunt>>;
 }
 
 /// A run before its start: what stands still while it goes on. The same setup makes the same run.

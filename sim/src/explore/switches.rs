@@ -42,16 +42,16 @@ impl<R: Conditional + fmt::Debug + Sync> Switches for SwitchableRule<R> {
         R::CONDITIONS
     }
 
-    fn in_force(&self) -> u16 {
+    fn in_force(&self) -> u32 {
         self.rule.in_force()
     }
 
-    fn start(&self, setup: &Setup, in_force: u16) -> Result<Box<dyn Team>, Diagnostic> {
+    fn start(&self, setup: &Setup, in_force: u32) -> Result<Box<dyn Team>, Diagnostic> {
         setup.check()?;
         (self.start)(setup, self.rule.with_in_force(in_force))
     }
 
-    fn hunt(&self, in_force: u16) -> Option<Box<dyn Hunt>> {
+    fn hunt(&self, in_force: u32) -> Option<Box<dyn Hunt>> {
         (self.hunt)(self.rule.with_in_force(in_force), self.rule)
     }
 }

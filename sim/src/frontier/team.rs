@@ -51,6 +51,8 @@ pub struct Explorers {
     entered: Chart,
     /// Whether a robot has noted in the last team move what is not so.
     is_wrong: bool,
+    /// Whether one has entered in it as its frontier cell what a robot had entered before.
+    is_again: bool,
     /// Whether there was a team move.
     has_begun: bool,
     /// How much each robot knew before the last team move.
@@ -68,10 +70,7 @@ impl Explorers {
         let robots: Vec<Robot<Chart>> = starts.iter().map(robot).collect();
         let others = starts.iter().map(|&cell| Other { cell, place: Place::midpoint(cell), aim: None });
         let others: Vec<Other> = others.collect();
-        let mut entered = Chart::new(area);
-        for &start in starts {
-            entered.explore(start);
-        }
+        let entered = robots.first().map_or_else(|| Chart::new(area), |robot| robot.map.clone());
         let heard = robots.iter().map(|robot| robot.map.len()).collect();
         let radio = Radio::new(options, area, seed);
         let small = radio.small(area, seed);
@@ -96,6 +95,7 @@ impl Explorers {
             objects: Vec::new(),
             entered,
             is_wrong: false,
+            is_again: false,
             has_begun: false,
             known: vec![0; starts.len()],
             told_now: Vec::new(),
@@ -107,9 +107,10 @@ impl Explorers {
         &self.cells
     }
 
-    /// Whether a robot has noted in the last team move what is not so.
-    pub const fn is_wrong(&self) -> bool {
-        self.is_wrong
+    /// Whether a robot has noted in the last team move what is not so, and whether one has entered as its frontier
+    /// cell what a robot had entered before.
+    pub const fn faults(&self) -> (bool, bool) {
+        (self.is_wrong, self.is_again)
     }
 
     /// Whether positions have an error.
@@ -209,7 +210,7 @@ impl Explorers {
     fn advance_by(&mut self, next: impl Fn(&mut Self, usize) -> Next) -> Result<Frame, TeamEnd> {
         let robots = self.robots.len();
         let mut moves = Moves::none(robots);
-        self.is_wrong = false;
+        (self.is_wrong, self.is_again) = (false, false);
         self.told_now.clear();
         if self.has_begun {
             self.known = self.robots.iter().map(|robot| robot.map.len()).collect();
@@ -218,12 +219,14 @@ impl Explorers {
         let before: usize = self.robots.iter().map(|robot| robot.map.len()).sum();
         let mut does_any = false;
         let mut entering: Vec<Option<(Cell, Pose)>> = vec![None; robots];
-        let mut stands = vec![false; robots];
+        // Who stands, and who tries a frontier cell.
+        let (mut stands, mut tries) = (vec![false; robots], vec![false; robots]);
         for robot in 0..robots {
             let next = next(self, robot);
             does_any |= matches!(next, Next::Tries { .. } | Next::Waits);
             let Next::Tries { side, aim } = next else { continue };
             let to = self.robots[robot].at().beyond(side);
+            tries[robot] = self.robots[robot].map.status(to) == Status::Unexplored;
             if self.radio.is_noisy() && !self.rule.may_go(&self.poses[robot].belief, to, &self.radio.odometry)
             {
                 stands[robot] = true;
@@ -262,6 +265,7 @@ impl Explorers {
             }
             let Some((cell, pose)) = to else { continue };
             (self.cells[robot], self.poses[robot], self.detours[robot]) = (cell, pose, None);
+            self.is_again |= tries[robot] && self.entered.status(cell) == Status::Explored;
             self.entered.explore(cell);
             if self.radio.is_noisy() {
                 let counted = self.robots[robot].entering();

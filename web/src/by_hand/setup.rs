@@ -84,7 +84,7 @@ pub(super) fn of_world<R: Conditional>(name: &str, about: &str, rule: &R) -> Val
 }
 
 /// The conditions of a rule, each by its name, its sentence, and whether it is in force.
-pub(crate) fn switched(conditions: &[(&str, &str)], in_force: u16) -> Value {
+pub(crate) fn switched(conditions: &[(&str, &str)], in_force: u32) -> Value {
     let row = |(bit, (name, sentence)): (u32, &(&str, &str))| {
         let is_on = in_force >> bit & 1 == 1;
         json!({ "name": name, "sentence": sentence.trim(), "on": is_on })

@@ -4,7 +4,7 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    pub enum Condition of Rule {
+    pub enum Condition of Rule in u16 {
         /// An agent marks its cell as soon as the cell does not block (BRICKS-1), and a cell joins a tree only if it
         /// blocks.
         Bricks,

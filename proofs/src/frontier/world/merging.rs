@@ -17,17 +17,25 @@ pub enum Part<const ROBOTS: usize> {
     /// A robot but for its repository, where it really is, and what the others have told it.
     Robot(Robot<TinyMap>, Cell, [Option<Other>; ROBOTS]),
     /// The mishaps so far, and the slot.
-    Clock([u8; 6]),
+    Clock([u8; 7]),
 }
 
 /// All of a world that is no robot's and no map.
-fn clock<const ROBOTS: usize>(world: &World<ROBOTS>) -> [u8; 6] {
-    [world.lost, world.wrong, world.small, world.slot, world.old, world.has_tried.into()]
+fn clock<const ROBOTS: usize>(world: &World<ROBOTS>) -> [u8; 7] {
+    [world.heading, world.lost, world.wrong, world.small, world.slot, world.old, world.has_tried.into()]
 }
 
 /// The situations that occur.
-const SITUATIONS: [&str; 7] =
-    ["a decision", "a robot", "a slot", "an arrival", "an obstacle", "an open cell", "a small obstacle"];
+const SITUATIONS: [&str; 8] = [
+    "a decision",
+    "a robot",
+    "a slot",
+    "an arrival",
+    "an obstacle",
+    "an open cell",
+    "a small obstacle",
+    "a way back",
+];
 
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
@@ -78,6 +86,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
             Event::Looks(_, _, Sight::Obstacle, ..) => 1 << 4,
             Event::Looks(_, _, Sight::Open, ..) => 1 << 5,
             Event::Looks(_, _, Sight::Small, ..) => 1 << 6,
+            Event::Returns(..) => 1 << 7,
         }
     }
 }
@@ -121,8 +130,8 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
                 (state.robots[robot], state.cells[robot], state.told[robot]) = (*bare, *cell, *told);
                 state.robots[robot].map = map;
             }
-            Part::Clock([lost, wrong, small, slot, old, has_tried]) => {
-                (state.lost, state.wrong, state.small) = (*lost, *wrong, *small);
+            Part::Clock([heading, lost, wrong, small, slot, old, has_tried]) => {
+                (state.heading, state.lost, state.wrong, state.small) = (*heading, *lost, *wrong, *small);
                 (state.slot, state.old, state.has_tried) = (*slot, *old, *has_tried == 1);
             }
         }
@@ -130,7 +139,10 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
         match turn.plan[*turn.event].event {
-            Event::Decides(robot, ..) | Event::Looks(robot, ..) | Event::Arrives(robot, ..) => 1 << robot,
+            Event::Decides(robot, ..)
+            | Event::Looks(robot, ..)
+            | Event::Returns(robot, _)
+            | Event::Arrives(robot, ..) => 1 << robot,
             Event::Ticks => 1 << ROBOTS,
         }
     }

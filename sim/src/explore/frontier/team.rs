@@ -27,6 +27,9 @@ pub const KNOWS: ClauseId = ClauseId::new("FRONTIER-4");
 /// A robot notes of a cell what is not so.
 pub const MARKS: ClauseId = ClauseId::new("FRONTIER-5");
 
+/// A robot enters as its frontier cell what a robot has entered before.
+pub const ONCE: ClauseId = ClauseId::new("FRONTIER-13");
+
 /// Who explores.
 pub(super) enum Who {
     Robots(Box<Explorers>),
@@ -50,6 +53,16 @@ pub(super) fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
     Box::new(FrontierTeam { who, due, left, ended: None })
 }
 
+impl FrontierTeam {
+    /// Those that decide for themselves: robots to which cells are assigned have one map.
+    fn robots(&self) -> Option<&Explorers> {
+        match &self.who {
+            Who::Robots(robots) => Some(robots),
+            Who::Assigned(_) => None,
+        }
+    }
+}
+
 impl Team for FrontierTeam {
     fn cells(&self) -> &[Cell] {
         match &self.who {
@@ -63,10 +76,8 @@ impl Team for FrontierTeam {
             Who::Robots(robots) => robots.advance(),
             Who::Assigned(robots) => robots.advance(),
         };
-        if let Ok(frame) = &made {
-            for cell in &frame.cells {
-                self.left.remove(cell);
-            }
+        for cell in made.iter().flat_map(|frame| &frame.cells) {
+            self.left.remove(cell);
         }
         made.map_err(|ended| {
             self.ended = Some(ended);
@@ -89,11 +100,8 @@ impl Team for FrontierTeam {
 
     fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {
         let is_double = has_double(&frame.cells);
-        let is_wrong = match &self.who {
-            Who::Robots(robots) => robots.is_wrong(),
-            Who::Assigned(_) => false,
-        };
-        broken([(is_double, ALONE), (is_wrong, MARKS)])
+        let (is_wrong, is_again) = self.robots().map_or((false, false), Explorers::faults);
+        broken([(is_double, ALONE), (is_wrong, MARKS), (is_again, ONCE)])
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
@@ -104,12 +112,8 @@ impl Team for FrontierTeam {
     }
 
     fn objects(&self) -> Vec<ObjectReport> {
-        match &self.who {
-            Who::Robots(robots) => {
-                robots.objects().iter().map(|(at, known)| ObjectReport::new(*at, known.as_ref())).collect()
-            }
-            Who::Assigned(_) => Vec::new(),
-        }
+        let objects = self.robots().map_or(&[][..], Explorers::objects);
+        objects.iter().map(|(at, known)| ObjectReport::new(*at, known.as_ref())).collect()
     }
 
     fn layers(&self) -> Vec<Layer> {
