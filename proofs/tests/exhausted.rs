@@ -292,6 +292,25 @@ fn a_certificate_of_another_clause_check_rule_or_program_says_so() {
     assert_eq!(none, "it has not as many states, or sections, as it should");
 }
 
+#[test]
+fn the_certificate_of_every_small_search_over_states_is_accepted() {
+    let limits = Limits { most_steps: 2_000, ..Limits::NONE };
+    let mut accepted = Vec::new();
+    for clause in clauses() {
+        for (number, check) in (0..).zip(clause.checks) {
+            if check.engine() != "states" || check.expected() != Verdict::Holds {
+                continue;
+            }
+            // A larger search is cut off.
+            let Ok(file) = certificate(clause, number, limits) else { continue };
+            let row = format!("{} {number}", clause.id);
+            assert!(examined(&file).is_ok(), "{row}: {:?}", examined(&file));
+            accepted.push(row);
+        }
+    }
+    assert!(accepted.len() > 5, "{accepted:?}");
+}
+
 /// The processor time of this process in seconds; 0 where that cannot be had.
 fn processor_s() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();

@@ -14,7 +14,6 @@ mod judge_and_rule;
 mod judge_of_agents;
 mod judge_of_chains;
 mod judges;
-mod larger;
 mod local;
 mod local_rules;
 mod log;

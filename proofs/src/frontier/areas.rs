@@ -330,11 +330,13 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         Ok(answer(&found, Some(evidence)))
     }
 
+    /// The areas in which there is room for the robots.
     fn systems(&self, rule: &Rule) -> Result<Systems, MethodError> {
-        let started = |&size: &Size| -> Result<Box<dyn AnySystem>, MethodError> {
-            Ok(Box::new(StatesModel::new(self.setting(rule, size)?, Setting::starts)))
-        };
-        self.sizes.iter().map(started).collect()
+        let settings =
+            self.sizes.iter().map(|&size| self.setting(rule, size)).collect::<Result<Vec<_>, _>>()?;
+        let of = |setting| -> Box<dyn AnySystem> { Box::new(StatesModel::new(setting, Setting::starts)) };
+        let with_starts = settings.into_iter().filter(|setting| !setting.starts().is_empty());
+        Ok(with_starts.map(of).collect())
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -97,8 +97,8 @@ pub struct World<const ROBOTS: usize> {
     told: [[Option<Other>; ROBOTS]; ROBOTS],
     /// The cells entered, and the obstacles that were met.
     truth: TinyMap,
-    /// Robots that are on their way to their frontier cells, a bit for each.
-    heading: u8,
+    /// By robot: whether it is on its way to its frontier cell.
+    heading: [bool; ROBOTS],
     lost: u8,
     wrong: u8,
     small: u8,
@@ -233,7 +233,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             cells,
             told,
             truth,
-            heading: 0,
+            heading: [false; ROBOTS],
             lost: 0,
             wrong: 0,
             small: 0,
@@ -360,8 +360,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let mut after = *world;
         let others: Vec<Other> = world.told_in_turn(robot).collect();
         let known = &world.robots[robot];
-        let is_new = known.map.status(known.at().beyond(side)) == Status::Unexplored;
-        after.heading |= u8::from(is_new) << robot;
+        after.heading[robot] = known.map.status(known.at().beyond(side)) == Status::Unexplored;
         after.robots[robot].decided(&self.rule, &others);
         after.robots[robot].tries(side, aim);
         let missed = if self.rule.has(Condition::Claim) {
@@ -391,15 +390,15 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         };
         after.robots[robot].looked(&self.rule, sight);
         after.small += u8::from(sight == Sight::Small);
-        after.heading &= !(1 << robot);
+        after.heading[robot] = false;
         let returns = sight == Sight::Open && after.robots[robot].stance() == Stance::Stands;
         let mut breaks = Vec::new();
         let mut missed = 0;
         match sight {
             Sight::Open if returns => {}
             Sight::Open => {
-                let is_new = world.heading >> robot & 1 == 1;
-                if self.is_wanted(Demand::Once) && is_new && world.truth.status(cell) == Status::Explored {
+                let is_entered = world.truth.status(cell) == Status::Explored;
+                if self.is_wanted(Demand::Once) && world.heading[robot] && is_entered {
                     breaks.push(Demand::Once);
                 }
                 if self.is_wanted(Demand::Alone) && world.inside(robot, cell, Rim::No) != 0 {

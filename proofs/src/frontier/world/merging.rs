@@ -14,15 +14,16 @@ use crate::frontier::has_more;
 pub enum Part<const ROBOTS: usize> {
     /// A repository, or the truth.
     Map(TinyMap),
-    /// A robot but for its repository, where it really is, and what the others have told it.
-    Robot(Robot<TinyMap>, Cell, [Option<Other>; ROBOTS]),
+    /// A robot but for its repository, where it really is, what the others have told it, and whether it is on its way
+    /// to its frontier cell.
+    Robot(Robot<TinyMap>, Cell, [Option<Other>; ROBOTS], bool),
     /// The mishaps so far, and the slot.
-    Clock([u8; 7]),
+    Clock([u8; 6]),
 }
 
 /// All of a world that is no robot's and no map.
-fn clock<const ROBOTS: usize>(world: &World<ROBOTS>) -> [u8; 7] {
-    [world.heading, world.lost, world.wrong, world.small, world.slot, world.old, world.has_tried.into()]
+fn clock<const ROBOTS: usize>(world: &World<ROBOTS>) -> [u8; 6] {
+    [world.lost, world.wrong, world.small, world.slot, world.old, world.has_tried.into()]
 }
 
 /// The situations that occur.
@@ -102,7 +103,8 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         match place.checked_sub(ROBOTS) {
             None => Part::Map(state.robots[place].map),
             Some(robot) if robot < ROBOTS => {
-                Part::Robot(self.bare(state, robot), state.cells[robot], state.told[robot])
+                let (bare, cell, told) = (self.bare(state, robot), state.cells[robot], state.told[robot]);
+                Part::Robot(bare, cell, told, state.heading[robot])
             }
             Some(rest) if rest == ROBOTS => Part::Map(state.truth),
             Some(_) => Part::Clock(clock(state)),
@@ -114,6 +116,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         let maps = robots().map(|(one, other)| one.map != other.map);
         let rest = robots().enumerate().map(|(robot, (its, others))| {
             one.cells[robot] != other.cells[robot]
+                || one.heading[robot] != other.heading[robot]
                 || one.told[robot] != other.told[robot]
                 || its != others && self.bare(one, robot) != self.bare(other, robot)
         });
@@ -124,14 +127,14 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         match part {
             Part::Map(map) if place < ROBOTS => state.robots[place].map = *map,
             Part::Map(map) => state.truth = *map,
-            Part::Robot(bare, cell, told) => {
+            Part::Robot(bare, cell, told, is_heading) => {
                 let robot = place - ROBOTS;
                 let map = state.robots[robot].map;
                 (state.robots[robot], state.cells[robot], state.told[robot]) = (*bare, *cell, *told);
-                state.robots[robot].map = map;
+                (state.robots[robot].map, state.heading[robot]) = (map, *is_heading);
             }
-            Part::Clock([heading, lost, wrong, small, slot, old, has_tried]) => {
-                (state.heading, state.lost, state.wrong, state.small) = (*heading, *lost, *wrong, *small);
+            Part::Clock([lost, wrong, small, slot, old, has_tried]) => {
+                (state.lost, state.wrong, state.small) = (*lost, *wrong, *small);
                 (state.slot, state.old, state.has_tried) = (*slot, *old, *has_tried == 1);
             }
         }
