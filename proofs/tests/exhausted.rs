@@ -292,11 +292,12 @@ fn a_certificate_of_another_clause_check_rule_or_program_says_so() {
     assert_eq!(none, "it has not as many states, or sections, as it should");
 }
 
+/// Robots at frontier cells are searched in areas of which some have no room for them.
 #[test]
-fn the_certificate_of_every_small_search_over_states_is_accepted() {
+fn the_certificate_of_every_small_search_of_frontier_cells_is_accepted() {
     let limits = Limits { most_steps: 2_000, ..Limits::NONE };
     let mut accepted = Vec::new();
-    for clause in clauses() {
+    for clause in clauses().filter(|clause| clause.id.starts_with("FRONTIER-")) {
         for (number, check) in (0..).zip(clause.checks) {
             if check.engine() != "states" || check.expected() != Verdict::Holds {
                 continue;
@@ -308,7 +309,7 @@ fn the_certificate_of_every_small_search_over_states_is_accepted() {
             accepted.push(row);
         }
     }
-    assert!(accepted.len() > 5, "{accepted:?}");
+    assert!(accepted.len() > 3, "{accepted:?}");
 }
 
 /// The processor time of this process in seconds; 0 where that cannot be had.
