@@ -340,7 +340,7 @@ struct Job {
     how: How,
 }
 
-/// What a panic says.
+/// The words of a panic.
 fn words_of(bug: &(dyn Any + Send)) -> &str {
     let of = bug.downcast_ref::<&str>().copied().or_else(|| bug.downcast_ref().map(String::as_str));
     of.unwrap_or("no words")

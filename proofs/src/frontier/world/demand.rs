@@ -1,4 +1,4 @@
-//! What is demanded of a team at frontier cells.
+//! Demands on a team at frontier cells.
 
 /// A demand on a team.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
