@@ -534,14 +534,6 @@ Section Area.
           destruct A as [c [C1 C2]]; exists c; now rewrite F.
         + destruct O as [_ [v [_ O]]]; rewrite O in X; injection X as _ D _; now rewrite <- D.
     Qed.
-    Lemma aligned_in_the_end : forall t, known t -> plain_from <= t -> exists u, t <= u /\ forall n i, u <= n -> i < N -> aligned n i.
-    Proof.
-      intros t K Pf; destruct (all_in_the_end (fun i u => t <= u /\ forall n, u <= n -> aligned n i) N) as [u H].
-      - intros i a b L [A B]; split; [lia | intros; apply B; lia].
-      - intros i I; destruct (lands_or_stays i t I) as [m [L D]]; exists m; split; [exact L|]; intros n Ln.
-        induction Ln as [|n Ln IH]; [unfold aligned; now rewrite D | eapply aligned_step; eauto; lia].
-      - exists (t + u); split; [lia|]; intros n i L I; apply (proj2 (H i I)); lia.
-    Qed.
 
     (** A robot under way has not claimed what it knows to be explored. *)
     Definition fresh (n i : nat) : Prop :=
@@ -563,12 +555,15 @@ Section Area.
           rewrite A; destruct (late (at_ n i) v); [discriminate | now apply F].
         + destruct O as [-> [v [D O]]]; rewrite O in Y; injection Y as _ Y _; congruence.
     Qed.
-    Lemma fresh_in_the_end : forall t, known t -> plain_from <= t -> exists u, t <= u /\ forall n i, u <= n -> i < N -> fresh n i.
+
+    Lemma under_way_in_the_end : forall t, known t -> plain_from <= t ->
+      exists u, t <= u /\ forall n i, u <= n -> i < N -> aligned n i /\ fresh n i.
     Proof.
-      intros t K Pf; destruct (all_in_the_end (fun i u => t <= u /\ forall n, u <= n -> fresh n i) N) as [u H].
+      intros t K Pf; destruct (all_in_the_end (fun i u => t <= u /\ forall n, u <= n -> aligned n i /\ fresh n i) N) as [u H].
       - intros i a b L [A B]; split; [lia | intros; apply B; lia].
       - intros i I; destruct (lands_or_stays i t I) as [m [L D]]; exists m; split; [exact L|]; intros n Ln.
-        induction Ln as [|n Ln IH]; [intros Fl; congruence | eapply fresh_step; eauto; lia].
+        induction Ln as [|n Ln [A F]]; [split; [unfold aligned; now rewrite D | intros Fl; congruence]|].
+        split; [eapply aligned_step; eauto; lia | eapply fresh_step; eauto; lia].
       - exists (t + u); split; [lia|]; intros n i L I; apply (proj2 (H i I)); lia.
     Qed.
 
@@ -964,10 +959,7 @@ Section Area.
     apply (learnt_same s e G) in K'; remember (t1' + tp) as t1 eqn:T1.
     assert (known s t1) as K.
     { intros n i L I; destruct (K' n i ltac:(lia) I) as [-> ->], (K' t1 i ltac:(lia) I) as [-> ->]; auto. }
-    assert (exists t2, t1 <= t2 /\ forall n i, t2 <= n -> i < N -> aligned s n i /\ fresh s n i) as [t2 [L2 A]].
-    { destruct (aligned_in_the_end s e G F tp Pl t1 K ltac:(lia)) as [a [La A]].
-      destruct (fresh_in_the_end s e G F tp Pl t1 K ltac:(lia)) as [b [Lb B]].
-      exists (a + b); split; [lia|]; intros n i L I; split; [apply A | apply B]; auto; lia. }
+    destruct (under_way_in_the_end s e G F tp Pl t1 K ltac:(lia)) as [t2 [L2 A]].
     assert (forall t, t1 <= t -> known s t) as Kn.
     { intros t L n i Ln I; destruct (K n i ltac:(lia) I) as [-> ->], (K t i L I) as [-> ->]; auto. }
     apply (constant (left_ s (t0 + t2))).
