@@ -57,6 +57,9 @@ impl Probability {
     /// The probability of what never happens.
     pub const NEVER: Self = Self(0.0);
 
+    /// The probability of what always happens.
+    pub const ALWAYS: Self = Self(1.0);
+
     /// Whether it never happens.
     pub fn is_never(self) -> bool {
         self == Self::NEVER

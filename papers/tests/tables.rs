@@ -198,12 +198,12 @@ fn sums_that_no_layouts_have_are_refused() {
 fn a_repaired_team_that_breaks_a_clause_makes_the_table_say_so() {
     let (yes, one) = (Value::from(true), Value::from(1));
     for (id, places) in [
-        ("repair-cost", vec![("/violations/1/0", one)]),
+        ("repair-cost", vec![("/violations/1/0", one.clone())]),
         // Two repaired robots are out of contact, or leave paths out.
         ("kit-fig14", vec![("/5/is_cut", yes.clone()), ("/5/paths", Value::Array(Vec::new()))]),
         ("kit-range", vec![("/0/is_cut", yes.clone()), ("/9/paths", Value::Array(Vec::new()))]),
         // One repaired robot, behind the five teams of the published rule.
-        ("frontier-fig7", vec![("/5/is_double", yes), ("/5/moves", Value::Null)]),
+        ("frontier-fig7", vec![("/5/is_double", yes), ("/5/again/0", one), ("/5/moves", Value::Null)]),
     ] {
         let asked = small(find(id).expect("it is in the catalogue"));
         let jobs = asked.jobs().expect("jobs");

@@ -1,6 +1,8 @@
 //! The readings of the chain that Kovács, Pásztor and Istenes 2011 leave open, beyond what the ledger decides of them:
 //! those that change nothing, and those that the paper's own figures exclude.
 
+use std::collections::BTreeSet;
+
 use tautline_kernel::chain::{Chain, Intent, Kind, Message, Outcome, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step, TinyGrid};
@@ -56,6 +58,47 @@ fn a_chain_that_starts_in_a_row_takes_other_figures_than_the_papers() {
     }
     assert_eq!(in_the_open(8, &[]), 62);
     assert_eq!(in_the_open(8, &[InARow]), 55);
+}
+
+/// The cells that the published chain of so many robots explores in (2N+1)² cells, the base in the middle.
+fn explored_in_larger(robots: i16, mut is_open: impl FnMut(Edge) -> bool) -> BTreeSet<Cell> {
+    let (inner, base) = area(robots);
+    let [first, last] = [inner.first().at_offset(-1, -1), inner.last().at_offset(1, 1)];
+    let area = Area::new(first, last).expect("an area");
+    let chain = PlainChain::new(Rule::PUBLISHED, robots as usize, base, area);
+    let (mut chain, mut explored) = (chain.that_floods_once(), BTreeSet::new());
+    loop {
+        explored.extend(chain.cells());
+        match plan(&mut chain) {
+            PlainIntent::Explored => panic!("robots come to the rim"),
+            PlainIntent::Exhausted => return explored,
+            intent => chain.settle(&intent, &mut is_open),
+        }
+    }
+}
+
+/// The paper: “the maximal size of the area can be explored is (2N+1)²”.
+#[test]
+fn of_2n_plus_1_squared_cells_the_rim_is_left_out() {
+    for robots in 2..=8 {
+        let inner = area(robots).0.cells().collect();
+        assert_eq!(explored_in_larger(robots, |_| true), inner, "{robots} robots");
+    }
+    for (robots, most) in FEW_WALLS {
+        let tally = exhaust(|oracle: &mut dyn Oracle| {
+            let mut left = most;
+            let explored = explored_in_larger(robots, |_| {
+                let is_wall = left > 0 && oracle.flip();
+                left -= u32::from(is_wall);
+                !is_wall
+            });
+            let is_inner = |cell: &Cell| area(robots).0.contains(*cell);
+            require(explored.iter().all(is_inner), "no robot is at the rim")?;
+            Ok("an end")
+        });
+        assert_eq!(tally.violation, None);
+        assert!(tally.cases > 500, "{} runs", tally.cases);
+    }
 }
 
 #[test]

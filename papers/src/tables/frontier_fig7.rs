@@ -10,15 +10,19 @@ use std::num::NonZeroU32;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
-use tautline_grids::chance::Dice;
-use tautline_sim::explore::frontier::{ALONE, FRONTIER};
-use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
+use tautline_grids::chance::{Dice, Probability};
+use tautline_sim::explore::frontier::{ALONE, FRONTIER, ONCE};
+use tautline_sim::explore::{ClauseId, Limits, Milestone, Report, RuleId, Setup, explore};
+use tautline_sim::options::Options;
 
 /// Team sizes that the paper compares.
 pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];
 
 /// The team that the paper says is best.
 const BEST: u16 = 8;
+
+/// The rules whose robots explore and tell each other: they run once more without the maps of the others.
+const TELLING: [&str; 4] = ["published", "repaired", "plain", "wanders"];
 
 /// Every rule, with every team size.
 fn teams(settings: &Settings) -> impl Iterator<Item = (RuleId, u16)> {
@@ -63,6 +67,9 @@ pub struct Outcome {
     explored: u32,
     /// Whether two robots were in one cell.
     is_double: bool,
+    /// Team moves in which a robot entered as its frontier cell what one had entered before, and how many these are if
+    /// no robot hears another one; for some rules.
+    again: Option<[u32; 2]>,
 }
 
 /// The whole figure.
@@ -92,6 +99,10 @@ pub struct Line {
     pub explored: Option<Estimate>,
     /// Runs in which two robots were in one cell, in percent.
     pub double: Option<Estimate>,
+    /// Team moves of a run in which a robot enters as its frontier cell what one has entered before.
+    pub again: Option<Estimate>,
+    /// How many more of them there are on the same layouts if no robot hears of another one's map.
+    pub saved: Option<Estimate>,
 }
 
 impl Settings {
@@ -137,7 +148,21 @@ impl Table for FrontierFig7 {
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Vec<Outcome>, Halt> {
         let seed = run.seed(settings.seed);
         let (layout, starts) = drawn(settings, seed)?;
-        teams(settings).map(|(rule, robots)| follow(rule, &layout, &starts[..robots.into()], seed)).collect()
+        let with = |rule: RuleId, robots: u16, loss| {
+            follow(rule, &layout, &starts[..robots.into()], Options { loss, ..Options::default() }, seed)
+        };
+        let measured = teams(settings).map(|(rule, robots)| {
+            let report = with(rule, robots, Probability::NEVER)?;
+            let tells = TELLING.contains(&rule.as_str());
+            let alone = tells.then(|| with(rule, robots, Probability::ALWAYS)).transpose()?;
+            Ok(Outcome {
+                moves: report.reached(Milestone::Whole),
+                explored: report.explored * 1000 / report.cells,
+                is_double: breaks(&report, ALONE) > 0,
+                again: alone.map(|alone| [report, alone].map(|report| breaks(&report, ONCE))),
+            })
+        });
+        measured.collect()
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
@@ -157,7 +182,7 @@ impl Table for FrontierFig7 {
         let moves = format!(
             "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
         );
-        let parts: [Part<'_>; 4] = [
+        let parts: [Part<'_>; 6] = [
             (&moves, |line| line.moves),
             (
                 "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell",
@@ -165,6 +190,10 @@ impl Table for FrontierFig7 {
             ),
             ("Runs that explore every cell, in %; the others are in no mean of team moves", |one| one.whole),
             ("Runs in which two robots are in one cell, in %", |line| line.double),
+            ("Team moves in which a robot explores a cell that one has entered before", |line| line.again),
+            ("How many more of them on the same layouts if no robot hears another one's map", |line| {
+                line.saved
+            }),
         ];
         let part = |(title, of): Part<'_>| {
             let rules = merged.lines.chunks(sizes.len());
@@ -199,12 +228,12 @@ impl Table for FrontierFig7 {
         Ok(LineChart::new("Team moves until every cell is explored", x, y, series).without_empty().svg())
     }
 
-    /// A repaired team explores every cell, and never has two robots in one.
+    /// A repaired team explores every cell, none of them twice, and never has two robots in one.
     fn is_broken(&self, merged: &Summary) -> bool {
         let repaired = |line: &&Line| line.rule == RuleId::REPAIRED || line.rule.as_str() == "plain";
         merged.lines.iter().filter(repaired).any(|line| {
             line.whole.is_some_and(|whole| whole.mean < 100.0)
-                || line.double.is_some_and(|double| double.mean > 0.0)
+                || [line.double, line.again].into_iter().flatten().any(|faults| faults.mean > 0.0)
         })
     }
 }
@@ -233,19 +262,25 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
 /// Layouts that are drawn until one is connected.
 const MOST_DRAWN: u32 = 100_000;
 
-fn follow(rule: RuleId, layout: &Layout, starts: &[Cell], seed: u64) -> Result<Outcome, Halt> {
+fn follow(
+    rule: RuleId,
+    layout: &Layout,
+    starts: &[Cell],
+    options: Options,
+    seed: u64,
+) -> Result<Report, Halt> {
     let mut layout = layout.clone();
     let base = starts[0];
     layout.place_base(base)?;
     let limits = Limits { max_moves: NonZeroU32::new(MOST_MOVES), ..Limits::default() };
     let setup = Setup::new(&FRONTIER, rule, starts.len() as u16, layout, base);
-    let setup = Setup { starts: Some(starts.to_vec()), seed, limits, ..setup };
-    let report = explore(&setup, &mut |_| Ok(()))?;
-    Ok(Outcome {
-        moves: report.reached(Milestone::Whole),
-        explored: report.explored * 1000 / report.cells,
-        is_double: report.violations.iter().any(|violation| violation.clause == ALONE),
-    })
+    let setup = Setup { starts: Some(starts.to_vec()), seed, limits, options, ..setup };
+    Ok(explore(&setup, &mut |_| Ok(()))?)
+}
+
+/// The team moves of a run that break this clause.
+fn breaks(report: &Report, clause: ClauseId) -> u32 {
+    report.violations.iter().filter(|violation| violation.clause == clause).count() as u32
 }
 
 impl Line {
@@ -258,6 +293,8 @@ impl Line {
         let percent =
             |is_such: fn(&Outcome) -> bool| share(outcomes, is_such).map(|share| share.times(100.0));
         let more = |(own, other): (&Outcome, &Outcome)| Some(f64::from(own.moves?) - f64::from(other.moves?));
+        let again = |one: &Outcome| one.again.map(|[heard, _]| f64::from(heard));
+        let saved = |one: &Outcome| one.again.map(|[heard, alone]| f64::from(alone) - f64::from(heard));
         Self {
             rule,
             robots,
@@ -266,6 +303,8 @@ impl Line {
             whole: percent(|outcome| outcome.moves.is_some()),
             explored: mean(outcomes.iter().map(|outcome| f64::from(outcome.explored) / 10.0)),
             double: percent(|outcome| outcome.is_double),
+            again: mean(outcomes.iter().filter_map(again)),
+            saved: mean(outcomes.iter().filter_map(saved)),
         }
     }
 }
@@ -284,7 +323,21 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
     let alone = estimate(|line| line.double, "published", 8).map(|double| double.times(0.01).rest());
     let largest = lines.iter().map(|line| line.robots).max().unwrap_or(BEST);
     let [eight, six] = [8, 6].map(|robots| ends(estimate(|line| line.moves, "wanders", robots)));
-    vec![
+    let less = |(rule, who): (&str, &str)| {
+        let [again, saved] = [|line: &Line| line.again, |line: &Line| line.saved]
+            .map(|of: fn(&Line) -> Option<Estimate>| estimate(of, rule, 8));
+        Judgement::new(
+            "maps are exchanged “to reduce overlapping”",
+            who,
+            format!(
+                "in {} team moves of a run one explores a cell again, in {} more if it hears no map",
+                text(again, 1),
+                text(saved, 1)
+            ),
+            below(Some([0.0, 0.0]), ends(saved)),
+        )
+    };
+    let mut judged = vec![
         Judgement::new(
             "“performs better when team of robots has 8 members”",
             "robots that wander",
@@ -319,7 +372,9 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
             ),
             always(alone),
         ),
-    ]
+    ];
+    judged.extend([("published", "8 published robots"), ("wanders", "8 robots that wander")].map(less));
+    judged
 }
 
 /// The paper's sentence about eight robots, where larger teams are measured, too: no larger team of robots that wander,

@@ -37,6 +37,29 @@ impl Metric {
     }
 }
 
+/// The cells that are called frontier.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Frontier {
+    /// Explored ones beside unexplored ones: as published.
+    Explored,
+    /// Unexplored ones beside explored ones.
+    Unexplored,
+}
+
+/// How robots choose where to go.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Choice {
+    /// The gain that they compare.
+    pub metric: Metric,
+    /// The cells among which they choose.
+    pub frontier: Frontier,
+}
+
+impl Choice {
+    /// As published.
+    pub const PUBLISHED: Self = Self { metric: Metric::CellsBySteps, frontier: Frontier::Explored };
+}
+
 /// A run of a pack.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Run {
@@ -48,8 +71,8 @@ pub struct Run {
     pub sight: i32,
     /// R_c, in cells.
     pub range: i32,
-    /// The distance that robots compare.
-    pub metric: Metric,
+    /// How robots choose.
+    pub choice: Choice,
     /// Where each robot starts.
     pub starts: Vec<Place>,
     /// Where all robots are after each team move.
@@ -215,7 +238,13 @@ impl Run {
             |seen: &BTreeMap<Place, bool>, cell: Place| self.floor.has(cell) && !seen.contains_key(&cell);
         let is_frontier = |seen: &BTreeMap<Place, bool>, cell: Place| {
             let around = (0..4).filter_map(|side| beside(cell, side));
-            seen.get(&cell) == Some(&true) && around.into_iter().any(|cell| is_unknown(seen, cell))
+            let is_free = |cell: &Place| seen.get(cell) == Some(&true);
+            match self.choice.frontier {
+                Frontier::Explored => is_free(&cell) && around.into_iter().any(|cell| is_unknown(seen, cell)),
+                Frontier::Unexplored => {
+                    is_unknown(seen, cell) && around.into_iter().any(|cell| is_free(&cell))
+                }
+            }
         };
         let seen = team.seen.clone();
         for robot in 0..team.cells.len() {
@@ -246,16 +275,18 @@ impl Run {
         others: &[Place],
         is_frontier: impl Fn(Place) -> bool,
     ) -> Option<Aim> {
+        let is_free = |cell: Place| seen.get(&cell) == Some(&true);
         let mut ways = BTreeMap::from([(from, VecDeque::new())]);
         let mut queue = VecDeque::from([from]);
         let mut first: Option<(usize, Place)> = None;
         let mut best: Option<(usize, usize, Place)> = None;
         while let Some(cell) = queue.pop_front() {
             let way: VecDeque<usize> = ways[&cell].clone();
-            for side in 0..SIDES.len() {
-                let Some(next) = beside(cell, side).filter(|next| seen.get(next) == Some(&true)) else {
-                    continue;
-                };
+            // No way leads through an unexplored cell.
+            let sides = if is_free(cell) { 0..SIDES.len() } else { 0..0 };
+            for side in sides {
+                let goes_there = |&next: &Place| is_free(next) || is_frontier(next);
+                let Some(next) = beside(cell, side).filter(goes_there) else { continue };
                 ways.entry(next).or_insert_with(|| {
                     queue.push_back(next);
                     way.iter().copied().chain([side]).collect()
@@ -278,7 +309,7 @@ impl Run {
             let unknown = in_sight.iter().filter(|to| !seen.contains_key(to) && !is_taken(to)).count();
             let (columns, rows) = apart(from, cell);
             let line_squared = (columns * columns + rows * rows) as usize;
-            let (gain, by) = self.metric.fraction(unknown, in_sight.len(), far, line_squared);
+            let (gain, by) = self.choice.metric.fraction(unknown, in_sight.len(), far, line_squared);
             if gain > 0 && best.is_none_or(|(most, over, _)| gain * over > most * by) {
                 best = Some((gain, by, cell));
             }

@@ -67,9 +67,10 @@ const TWO: &[(Size, u32)] = floors![
     4 by 3, 5 by 3: 4, 5 by 4: 2
 ];
 
-/// The floors on which the published rule, and robots that start anywhere, are looked at.
+/// The floors on which the published rule, and robots that start anywhere, are looked at. The last ones are the first
+/// where a pack leaves cells out whose frontier is unexplored.
 const FEW: &[(Size, u32)] = floors![
-    2 by 1, 3 by 1, 2 by 2, 4 by 1, 5 by 1, 3 by 2, 6 by 1, 7 by 1, 4 by 2, 5 by 2
+    2 by 1, 3 by 1, 2 by 2, 4 by 1, 5 by 1, 3 by 2, 6 by 1, 7 by 1, 4 by 2, 5 by 2, 4 by 3: 1
 ];
 
 /// Floors on which no two cells are R_c apart: whether robots are linked does not rest on equality.
@@ -245,14 +246,14 @@ mod tests {
     use crate::engine::tree::unwatched;
 
     #[test]
-    fn under_every_reading_of_the_gain_robots_keep_apart_go_step_by_step_and_end() {
+    fn under_every_reading_robots_keep_apart_go_step_by_step_and_end() {
         let (cache, watch) = (&mut Cache::default(), &mut unwatched);
         let mut context = Context { cache, watch, memory: MemoryLimit::any() };
         for (name, subject) in READINGS {
             for asked in [Demand::Single, Demand::Free, Demand::Ends] {
                 let found = demand(OF_FEW, asked).decide(&subject, Until::Exhausted, &mut context);
                 let found = found.expect("it can be decided");
-                assert_eq!((found.verdict, found.cases), (Verdict::Holds, 8834), "{name}: {asked:?}");
+                assert_eq!((found.verdict, found.cases), (Verdict::Holds, 9208), "{name}: {asked:?}");
             }
         }
     }

@@ -5,15 +5,14 @@ use tautline_kernel::pack::Rule;
 
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
-use crate::judge::pack::Metric;
+use crate::judge::pack::{Choice, Frontier, Metric};
 
 /// A pack as a check looks at it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Subject {
     pub(super) rule: Rule,
-    /// The distance that its robots compare: another one than the published one
-    /// is followed by the published rule alone.
-    pub(super) metric: Metric,
+    /// How its robots choose: another way than the published one is followed by the published rule alone.
+    pub(super) choice: Choice,
     /// A flaw that no condition expresses: a mutant's.
     pub(super) flaw: Option<Flaw>,
 }
@@ -32,20 +31,24 @@ pub(super) enum Flaw {
 
 impl Subject {
     pub(super) const fn of(rule: Rule) -> Self {
-        Self { rule, metric: Metric::CellsBySteps, flaw: None }
+        Self { rule, choice: Choice::PUBLISHED, flaw: None }
     }
 }
 
-/// The published pack that compares this.
-const fn read(metric: Metric) -> Subject {
-    Subject { metric, ..Subject::of(Rule::PUBLISHED) }
+/// The published pack that compares this, among these cells.
+const fn read(metric: Metric, frontier: Frontier) -> Subject {
+    Subject { choice: Choice { metric, frontier }, ..Subject::of(Rule::PUBLISHED) }
 }
 
 /// The readings but for the published one.
-pub(super) const READINGS: [(&str, Subject); 3] = [
-    ("share", read(Metric::ShareBySteps)),
-    ("line", read(Metric::CellsByLine)),
-    ("share + line", read(Metric::ShareByLine)),
+pub(super) const READINGS: [(&str, Subject); 7] = [
+    ("share", read(Metric::ShareBySteps, Frontier::Explored)),
+    ("line", read(Metric::CellsByLine, Frontier::Explored)),
+    ("share + line", read(Metric::ShareByLine, Frontier::Explored)),
+    ("unexplored", read(Metric::CellsBySteps, Frontier::Unexplored)),
+    ("share + unexplored", read(Metric::ShareBySteps, Frontier::Unexplored)),
+    ("line + unexplored", read(Metric::CellsByLine, Frontier::Unexplored)),
+    ("share + line + unexplored", read(Metric::ShareByLine, Frontier::Unexplored)),
 ];
 
 /// The passages that the paper leaves open.
@@ -63,6 +66,17 @@ pub(super) static PAPER: Paper = Paper {
             interpretations: &[
                 Interpretation::new("steps", "the distance is that over known cells", Literal),
                 Interpretation::new("line", "it is that of the straight line", Literal),
+            ],
+        },
+        Ambiguity {
+            words: "“at the boundary between the explored and the unexplored area”",
+            interpretations: &[
+                Interpretation::new(
+                    "explored",
+                    "a frontier cell is explored, beside an unexplored one",
+                    Probable,
+                ),
+                Interpretation::new("unexplored", "it is unexplored, beside an explored one", Literal),
             ],
         },
     ],

@@ -8,7 +8,7 @@ use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Te
 
 use super::gains::{Gains, Outlook};
 use super::readings::{Flaw, Subject};
-use crate::judge::pack::{self as judge, Metric};
+use crate::judge::pack::{self as judge, Choice};
 use crate::judge::{Floor as Written, Place};
 use crate::plural::{counted, listed};
 use crate::run::place;
@@ -96,7 +96,7 @@ impl Floor {
             floor: Written { columns: area.width() as i32, rows: area.height() as i32, barred },
             sight: subject.rule.sight().radius_cells().into(),
             range: subject.rule.range_cells().into(),
-            metric: subject.metric,
+            choice: subject.choice,
             starts: starts.iter().copied().map(place).collect(),
             moves: Vec::new(),
         }
@@ -223,7 +223,7 @@ fn are_joined(cells: &[Cell], has_link: impl Fn(Cell, Cell) -> bool) -> bool {
 pub(super) fn play(subject: &Subject, floor: &Floor, choices: Gains) -> Option<RunOutcome> {
     let rule = &subject.rule;
     let mut team = Team::new(*rule, &floor.starts).ok()?;
-    if subject.metric != Metric::CellsBySteps {
+    if subject.choice != Choice::PUBLISHED {
         return Some(play_plainly(subject, floor));
     }
     let area = floor.area;
