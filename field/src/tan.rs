@@ -22,6 +22,7 @@ mod walker;
 
 pub use antenna::Antenna;
 pub use ear::{Ear, NEAREST_M, ROBOT_REACH, Signal};
+pub use gradient::NextSensor;
 pub use journey::{End, Journey, Site};
 pub use shortest::shortest_m;
 pub use tree::{Tree, hops};

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use tautline_field::radio::{Area, Field, Model, Network, Obstacle, Point, Radio};
-use tautline_field::tan::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
+use tautline_field::tan::{End, Equipment, Journey, NextSensor, Site, Tree, hops, shortest_m};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Count, Rule, Scheme};
@@ -49,7 +49,7 @@ impl World {
         [
             site.tan(&tree, self.wfr, &mut self.chance),
             site.verma(self.wfr),
-            site.reich(self.wfr, &mut self.chance),
+            site.reich(self.wfr, NextSensor::Least, &mut self.chance),
             site.sheu(self.wfr, &mut self.chance),
         ]
     }
@@ -160,4 +160,57 @@ fn by_a_directional_antenna_robots_arrive_in_spite_of_noise_and_convex_lakes() {
             [tan + more, verma + more_verma, reich + more_reich, sheu + more_sheu]
         });
     assert_eq!(arrivals, [100; 4]);
+}
+
+/// Of each way to read Reich's rule: how the journeys ended, arrived or lost, and the whole metres of those that arrived.
+fn by_reich(worlds: impl Iterator<Item = World>) -> Vec<[(End, u64); 3]> {
+    let orders = [NextSensor::Least, NextSensor::Largest, NextSensor::LargestAndBack];
+    let journeys = |mut world: World| {
+        let equipment = Equipment::new(world.radio, 0.0).expect("equipment");
+        let site = Site { field: &world.field, network: &world.network, equipment };
+        orders.map(|order| {
+            let journey = site.reich(world.wfr, order, &mut world.chance);
+            (journey.end, journey.length_m as u64)
+        })
+    };
+    worlds.map(journeys).collect()
+}
+
+/// By the largest gradient a robot leaves the target, and comes there only if nothing unvisited is farther.
+#[test]
+fn in_a_row_of_nodes_the_largest_gradient_leads_to_the_end_that_is_far_from_the_target() {
+    let row = |last: u32, robot_m: f64| {
+        let area = Area::new(400.0, 10.0).expect("an area");
+        let at = |x_m: f64| Point { x_m, y_m: 5.0 };
+        let nodes = (0..=last).map(|node| at(1.0 + 20.0 * f64::from(node)));
+        let nodes = nodes.chain([at(1.0 + robot_m)]).collect();
+        let field = Field::new(area, vec![], nodes).expect("a field");
+        let radio = Radio::new(25.0, Model::Disc).expect("a radio");
+        let mut chance = SeededOracle::new(0, 0);
+        let network = Network::new(&field, radio, &mut chance).expect("a network");
+        World { field, network, radio, wfr: NodeId(0), chance }
+    };
+    let [middle, near, short] = [row(10, 105.0), row(10, 10.0), row(1, 10.0)];
+    assert_eq!(
+        by_reich([middle, near, short].into_iter()),
+        [
+            [(End::Arrived, 104), (End::Lost, 94), (End::Arrived, 294)],
+            [(End::Arrived, 9), (End::Lost, 189), (End::Arrived, 9)],
+            [(End::Arrived, 9), (End::Arrived, 29), (End::Arrived, 9)],
+        ]
+    );
+}
+
+#[test]
+fn by_the_largest_gradient_25_of_200_robots_arrive_and_all_that_go_back_on_ways_33_times_as_long() {
+    let worlds = (0..200).map(|seed| World::new(300, &[], Model::Disc, seed));
+    let journeys = by_reich(worlds.filter(World::is_connected));
+    let arrived = |order: usize| {
+        let arrived = journeys.iter().map(|ends| ends[order]).filter(|(end, _)| *end == End::Arrived);
+        arrived.fold((0, 0), |(count, metres), (_, length_m)| (count + 1, metres + length_m))
+    };
+    assert_eq!(
+        (journeys.len(), [0, 1, 2].map(arrived)),
+        (200, [(200, 23_274), (25, 106_313), (200, 760_599)])
+    );
 }

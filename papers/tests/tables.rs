@@ -262,7 +262,7 @@ fn what_stands_for_an_option_that_is_not_given_is_what_its_settings_have() {
 
 #[test]
 fn every_option_can_be_wrong_and_changes_the_settings() {
-    let values = ["9", "2", "5", "shared", "once", "1,2,3,4", "open:4x3", "0.25"];
+    let values = ["9", "2", "5", "shared", "once", "largest", "1,2,3,4", "open:4x3", "0.25"];
     for table in TABLES {
         let unasked = table.asked(&[]).and_then(|asked| asked.settings()).expect("settings");
         for (option, _) in table.options() {

@@ -2,6 +2,9 @@
 //! positions, and Reich's gradient, for which nobody does. Both flood the whole network once, so that every sensor
 //! knows its hops from the goal.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::net::NodeId;
 
 /// A place, in micrometres.
@@ -54,12 +57,42 @@ pub(super) struct Gradient {
     pub visited: bool,
 }
 
-/// Reich's gradient: the neighbour to which the robot goes next, the unvisited one of least gradient, the least
-/// identity first; `None` if all are visited. The paper says at once that the way leads from high to low and that the
-/// largest is chosen; only the first leads to the target.
-pub(super) fn reich(neighbours: impl IntoIterator<Item = Gradient>) -> Option<NodeId> {
+/// Which unvisited sensor Reich's robot goes to. The paper says at once that the way leads from high to low gradients
+/// and that the largest is chosen.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NextSensor {
+    /// The one with the least gradient: the first sentence.
+    Least,
+    /// The one with the largest gradient: the second sentence.
+    Largest,
+    /// The one with the largest gradient, but the target itself where the robot hears it; and where all are visited, the
+    /// sensor that it came from. So the movement ends only when the target is found.
+    LargestAndBack,
+}
+
+impl NamedValues for NextSensor {
+    const WORDS: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::Least, "least", "The one with the least gradient"),
+        (Self::Largest, "largest", "The one with the largest; where all are visited it is lost"),
+        (
+            Self::LargestAndBack,
+            "largest-and-back",
+            "The target where it hears it, else the largest; else it goes back",
+        ),
+    ];
+}
+
+/// Reich's gradient: the unvisited neighbour to which the robot goes next, of equal ones that of least identity; `None`
+/// if all are visited.
+pub(super) fn reich(order: NextSensor, neighbours: impl IntoIterator<Item = Gradient>) -> Option<NodeId> {
     let unvisited = neighbours.into_iter().filter(|neighbour| !neighbour.visited);
-    unvisited.min_by_key(|neighbour| (neighbour.hops, neighbour.node)).map(|neighbour| neighbour.node)
+    let rank = |hops: u16| match order {
+        NextSensor::Least => hops,
+        NextSensor::LargestAndBack if hops == 0 => 0,
+        NextSensor::Largest | NextSensor::LargestAndBack => u16::MAX - hops,
+    };
+    unvisited.min_by_key(|neighbour| (rank(neighbour.hops), neighbour.node)).map(|neighbour| neighbour.node)
 }
 
 #[cfg(test)]
@@ -89,7 +122,18 @@ mod tests {
         let gradient = |node, hops, visited| Gradient { node: NodeId(node), hops, visited };
         let neighbours =
             [gradient(4, 3, false), gradient(2, 3, false), gradient(1, 2, true), gradient(9, 7, false)];
-        assert_eq!(reich(neighbours), Some(NodeId(2)));
-        assert_eq!(reich([gradient(1, 2, true)]), None);
+        assert_eq!(reich(NextSensor::Least, neighbours), Some(NodeId(2)));
+        assert_eq!(reich(NextSensor::Least, [gradient(1, 2, true)]), None);
+    }
+
+    #[test]
+    fn the_largest_gradient_leads_up_and_a_target_that_is_heard_comes_first() {
+        let gradient = |node, hops, visited| Gradient { node: NodeId(node), hops, visited };
+        let neighbours =
+            [gradient(0, 0, false), gradient(4, 3, false), gradient(2, 3, false), gradient(9, 7, true)];
+        assert_eq!(reich(NextSensor::Largest, neighbours), Some(NodeId(2)));
+        assert_eq!(reich(NextSensor::LargestAndBack, neighbours), Some(NodeId(0)));
+        assert_eq!(reich(NextSensor::LargestAndBack, neighbours.into_iter().skip(1)), Some(NodeId(2)));
+        assert_eq!(reich(NextSensor::Largest, [gradient(0, 0, false)]), Some(NodeId(0)));
     }
 }

@@ -15,7 +15,7 @@ use tautline_kernel::tan::{Heading, Nav};
 
 use super::back_and_forth::{BackAndForth, Walk};
 use super::ear::apart_m;
-use super::gradient::{Gradient, Position, Station, reich, verma};
+use super::gradient::{Gradient, NextSensor, Position, Station, reich, verma};
 use super::journey::MOST_ACTS;
 use super::walker::{Trail, ahead, is_open};
 use super::{Antenna, End, Journey, Signal, Site, Walker, hops};
@@ -105,11 +105,13 @@ impl Site<'_> {
     }
 
     /// The journey by Reich's gradient.
-    pub fn reich(&self, goal: NodeId, chance: &mut dyn Oracle) -> Journey {
+    pub fn reich(&self, goal: NodeId, order: NextSensor, chance: &mut dyn Oracle) -> Journey {
         let hops = self.hops(goal);
         let start = self.start();
         let mut visited = vec![false; self.field.nodes().len()];
         let mut place = self.robot();
+        // The nodes through which it has come, where it goes back.
+        let mut way = Vec::new();
         let mut journey = Journey { time_ns: Some(0), ..Journey::none(start) };
         journey.end = loop {
             let at = journey.trail.last().copied().unwrap_or(start);
@@ -121,7 +123,8 @@ impl Site<'_> {
                 let visited = visited[node.0 as usize];
                 hops[node.0 as usize].map(|hops| Gradient { node, hops, visited })
             };
-            let Some(next) = reich(neighbours.filter_map(gradient)) else {
+            let ahead = reich(order, neighbours.filter_map(gradient));
+            let Some(next) = ahead.or_else(|| way.pop()) else {
                 let has_set_out = place != self.robot() || visited.contains(&true);
                 break if has_set_out { End::Lost } else { End::Unaware };
             };
@@ -135,7 +138,12 @@ impl Site<'_> {
             journey.time_ns = journey.time_ns.map(|so_far| so_far + time_ns);
             match end {
                 End::Arrived if next == goal => break end,
-                End::Arrived => place = next,
+                End::Arrived => {
+                    if order == NextSensor::LargestAndBack && ahead.is_some() && place != self.robot() {
+                        way.push(place);
+                    }
+                    place = next;
+                }
                 End::Lost | End::Unaware => {}
                 End::Astray => break end,
             }

@@ -22,7 +22,7 @@ use super::notice_fig5::{NODES, SIDE_M};
 use super::prelude::*;
 pub use super::sentences::Verdict;
 use tautline_field::radio::{Lake, SHAPES};
-use tautline_field::tan::Scans;
+use tautline_field::tan::{NextSensor, Scans};
 
 /// The description that all figures of journeys share.
 const ABOUT: Description = Description {
@@ -175,6 +175,7 @@ pub struct Summary {
     k: Senders,
     noise_db: f64,
     scan: Scans,
+    reich: NextSensor,
     near_percent: f64,
     topologies: u32,
     seed: u64,
@@ -253,7 +254,17 @@ impl Table for Journeys {
         let densities =
             cases.map(|(place, (nodes, shape, _))| Density::of(nodes, shape, &at(&results, place))).collect();
         let Settings {
-            side_m, range_m, obstacles_m, k, noise_db, scan, near_percent, topologies, seed, ..
+            side_m,
+            range_m,
+            obstacles_m,
+            k,
+            noise_db,
+            scan,
+            reich,
+            near_percent,
+            topologies,
+            seed,
+            ..
         } = self.whole(settings);
         let obstacles = obstacles_m.into_iter().flat_map(|Lake(parts)| parts).collect();
         Ok(Summary {
@@ -263,6 +274,7 @@ impl Table for Journeys {
             k,
             noise_db,
             scan,
+            reich,
             near_percent,
             topologies,
             seed,

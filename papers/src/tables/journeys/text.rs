@@ -4,7 +4,7 @@ use super::super::prelude::*;
 use super::claims::CLOSE;
 use super::density::Density;
 use super::world::{Settings, Way};
-use tautline_field::tan::Scans;
+use tautline_field::tan::{NextSensor, Scans};
 
 /// The figure for people.
 pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
@@ -17,13 +17,18 @@ pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
         Scans::Again => "",
         Scans::Once => ", one scan for each signal",
     };
+    let reich = match settings.reich {
+        NextSensor::Least => "",
+        NextSensor::Largest => ", Reich's robot goes to the largest gradient",
+        NextSensor::LargestAndBack => ", Reich's robot goes to the largest gradient, and back",
+    };
     let near = match settings.near_percent {
         near if near.total_cmp(&1.0).is_eq() => String::new(),
         near => format!(", at a node within {} % of the range", Number(near)),
     };
     let heading = format!(
         "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for \
-         each number of nodes, seed {}{scan}{near}",
+         each number of nodes, seed {}{scan}{reich}{near}",
         Number(settings.range_m),
         settings.k.0.get(),
         Number(settings.noise_db),

@@ -11,7 +11,9 @@ use tautline_field::radio::{
     Area, Field, LONGEST_WAIT_NS, Lake, Model, Network, Obstacle, Point, Problem, Radio,
 };
 use tautline_field::rescue::seconds;
-use tautline_field::tan::{End, Equipment, Journey, ROBOT_REACH, Scans, Site, Tree, hops, shortest_m};
+use tautline_field::tan::{
+    End, Equipment, Journey, NextSensor, ROBOT_REACH, Scans, Site, Tree, hops, shortest_m,
+};
 
 /// A way to find to the WFR.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
@@ -61,6 +63,8 @@ settings! {
         pub noise_db: f64 = 0.0, one("noise-db", "DB", real);
         /// When a robot turns its antenna once round
         pub scan: Scans = Scans::Again, word("scan", "WHEN");
+        /// Which unvisited sensor Reich's robot goes to next
+        pub reich: NextSensor = NextSensor::Least, word("reich", "SENSOR");
         /// How near it comes to a node before it asks for the next, in percent of the range
         pub near_percent: f64 = 1.0, one("near", "PERCENT", percent_of_range);
         /// Topologies for each number of nodes
@@ -82,6 +86,7 @@ pub(super) struct World {
     pub(super) field: Field,
     network: Network,
     equipment: Equipment,
+    reich: NextSensor,
     rule: Rule,
     robot: NodeId,
     wfr: NodeId,
@@ -132,6 +137,7 @@ impl World {
         let equipment = Equipment::near(radio, settings.noise_db, near_m)?;
         Ok(Self {
             equipment: Equipment { scans: settings.scan, ..equipment },
+            reich: settings.reich,
             rule: Rule::new(Scheme::Farthest { k: Some(k) }, radio.range_um(), LONGEST_WAIT_NS),
             robot: NodeId(nodes as u32),
             wfr: NodeId(chance.pick(nodes as u32)),
@@ -160,7 +166,7 @@ impl World {
         match way {
             Way::Tan => self.site().tan(tree, self.wfr, &mut self.chance()),
             Way::Verma => self.site().verma(self.wfr),
-            Way::Reich => self.site().reich(self.wfr, &mut self.chance()),
+            Way::Reich => self.site().reich(self.wfr, self.reich, &mut self.chance()),
             Way::Sheu => self.site().sheu(self.wfr, &mut self.chance()),
         }
     }
