@@ -5,13 +5,14 @@
 
 use tautline_kernel::frontier::{Condition, Rule};
 use tautline_kernel::ground::{Area, Cell};
+use tautline_kernel::position::{Belief, Point as Place, SightError};
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
 use tautline_field::stats::quantile;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::{RuleId, Setup, has_double};
-use tautline_sim::frontier::{Allowance, Explorers};
+use tautline_sim::frontier::{Allowance, Explorers, cell_at};
 use tautline_sim::objects::scattered;
 use tautline_sim::options::{Options, Wheels};
 
@@ -71,6 +72,8 @@ pub struct Outcome {
     off: u32,
     /// How far off the objects were that robots saw, in millionths of a cell's side, and what their ellipses say.
     objects: Vec<[u32; 2]>,
+    /// How far off they are by [`printed_off`], each as it was seen first, in millionths of a cell's side.
+    printed: Vec<u32>,
 }
 
 /// The whole table.
@@ -118,6 +121,9 @@ pub struct Figure {
     pub objects: Option<[f64; 2]>,
     /// The root mean square error of objects over that of their ellipses.
     pub objects_ratio: Option<f64>,
+    /// Errors of objects whose printed coordinates are taken for their place in the area: the median and the 95th
+    /// percentile, in sides of a cell.
+    pub objects_printed: Option<[f64; 2]>,
 }
 
 /// The floors that a noise allows.
@@ -170,7 +176,8 @@ impl Table for LocateExplore {
                     many runs are clean, by the noise of signals",
             help: "How many runs are clean of robots that localise themselves and explore, by the noise of signals",
             more: "Wheels err by 2 % of the way and 1° a turn. Anchors stand in three corners. Of the mutants, robots \
-                   without Sure never stand to take another fix.",
+                   without Sure never stand to take another fix. Off as printed: (d cos θ, -d sin θ) is taken for the \
+                   place in the area, not in the frame of the robot.",
             examples: &[
                 "locate-explore --runs 100",
                 "locate-explore --noise-db 2 --blocked 10,20,30 --format json",
@@ -240,7 +247,7 @@ impl Table for LocateExplore {
         type Part = (&'static str, fn(&Figure) -> String);
         const WIDTH: usize = 22;
         // Of the repaired rule.
-        let parts: [Part; 7] = [
+        let parts: [Part; 9] = [
             ("team moves", |figure| text(figure.moves, 1)),
             ("times those without noise", |figure| text(figure.ratio, 2)),
             ("a robot stands, times a run", |figure| text(figure.stands, 1)),
@@ -248,6 +255,10 @@ impl Table for LocateExplore {
             ("objects off, in cells: median", |figure| plain(figure.objects.map(|[median, _]| median), 3)),
             ("objects off: 95th percentile", |figure| plain(figure.objects.map(|[_, most]| most), 3)),
             ("over their ellipses (rms)", |figure| plain(figure.objects_ratio, 2)),
+            ("off as printed: median", |figure| plain(figure.objects_printed.map(|[median, _]| median), 3)),
+            ("off as printed: 95th percentile", |figure| {
+                plain(figure.objects_printed.map(|[_, most]| most), 3)
+            }),
         ];
         let mut told = format!(
             "{} runs for each, {} anchors, {} beacons of each at a stop, \
@@ -279,17 +290,34 @@ impl Table for LocateExplore {
     }
 }
 
+/// How far off an object at `object` is where its printed coordinates (d cos θ, −d sin θ) are taken for its place in the
+/// area, not in the frame of the robot at `robot` that sees it without error (4.5). The origin is the midpoint of the
+/// first cell.
+fn printed_off(robot: Place, heading_rad: f64, object: Place) -> f64 {
+    let (turn_rad, far) = Belief::known(robot, heading_rad).towards(object);
+    let exact = SightError { bearing_rad: 0.0, distance_m: 0.0 };
+    Belief::known(Place::new(0.0, 0.0), 0.0).sees(-turn_rad, far, &exact).at.distance_m(object)
+}
+
 /// Follows a team to the end of its run.
 fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
     let mut seen: Vec<Cell> = starts.to_vec();
     let (mut moves, mut whole, mut is_clean) = (0, None, true);
     let (mut squares, mut count) = (0.0, 0);
+    let mut printed = vec![None; team.objects().len()];
     while team.advance().is_ok() {
         moves += 1;
         for off in team.errors() {
             (squares, count) = (squares + off * off, count + 1);
         }
         is_clean &= !team.faults().0 && !has_double(team.cells());
+        for ((object, known), off) in team.objects().iter().zip(&mut printed) {
+            if known.is_some() && off.is_none() {
+                let robot = team.cells().iter().position(|&cell| cell == cell_at(*object));
+                let pose = robot.and_then(|robot| team.poses().nth(robot));
+                *off = pose.map(|(at, belief, _)| printed_off(at, belief.heading_rad(), *object));
+            }
+        }
         for &cell in team.cells() {
             if !seen.contains(&cell) {
                 seen.push(cell);
@@ -307,9 +335,10 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
         Some([millionths(known.at.distance_m(*object)), millionths(known.covariance.trace().sqrt())])
     });
     let objects = off.collect();
+    let printed = printed.into_iter().flatten().map(millionths).collect();
     let off = millionths((squares / f64::from(count.max(1))).sqrt());
     let stands = team.stands() as u32;
-    Outcome { moves: whole.filter(|_| is_clean), stands, off, objects }
+    Outcome { moves: whole.filter(|_| is_clean), stands, off, objects, printed }
 }
 
 /// The sides of a cell, in what an outcome counts.
@@ -328,9 +357,11 @@ impl Figure {
             Some((f64::from(outcome.moves?), f64::from(plain.moves.filter(|&moves| moves > 0)?)))
         });
         let clean = || outcomes.iter().filter(|outcome| outcome.moves.is_some());
-        let mut errors: Vec<f64> =
-            clean().flat_map(|outcome| outcome.objects.iter().map(|[off, _]| in_sides(*off))).collect();
-        errors.sort_by(f64::total_cmp);
+        let ends = |errors: &dyn Fn(&Outcome) -> Vec<u32>| {
+            let mut errors: Vec<f64> = clean().flat_map(|outcome| errors(outcome)).map(in_sides).collect();
+            errors.sort_by(f64::total_cmp);
+            (!errors.is_empty()).then(|| [0.5, 0.95].map(|share| quantile(&errors, share).0))
+        };
         let squares = |of: usize| -> f64 {
             clean()
                 .flat_map(|outcome| outcome.objects.iter().map(move |all| f64::from(all[of]).powi(2)))
@@ -343,7 +374,8 @@ impl Figure {
             ratio: ratio(both),
             stands: mean(clean().map(|outcome| f64::from(outcome.stands))),
             off: mean(clean().map(|outcome| in_sides(outcome.off))),
-            objects: (!errors.is_empty()).then(|| [0.5, 0.95].map(|share| quantile(&errors, share).0)),
+            objects: ends(&|outcome| outcome.objects.iter().map(|[off, _]| *off).collect()),
+            objects_printed: ends(&|outcome| outcome.printed.clone()),
             objects_ratio: (squares(1) > 0.0).then(|| (squares(0) / squares(1)).sqrt()),
         }
     }
@@ -417,4 +449,23 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
         ));
     }
     judged.concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+
+    #[test]
+    fn without_the_robots_pose_an_object_is_off_by_the_robots_place_and_turned_by_its_heading() {
+        let [robot, object] = [Place::new(4.0, 3.0), Place::new(4.25, 2.5)];
+        let off = |robot, heading_rad| printed_off(robot, heading_rad, object);
+        let is = |off: f64, due: f64| (off - due).abs() < 1e-12;
+        assert!(is(off(Place::new(0.0, 0.0), 0.0), 0.0), "at the origin the two readings are one");
+        assert!(is(off(robot, 0.0), 5.0), "as far as the robot is from the origin");
+        // What is (0.25, −0.5) from the robot is (−0.5, −0.25) and (−0.25, 0.5) in its frame.
+        assert!(is(off(robot, FRAC_PI_2), Place::new(-0.5, -0.25).distance_m(object)));
+        assert!(is(off(robot, PI), Place::new(-0.25, 0.5).distance_m(object)));
+    }
 }
