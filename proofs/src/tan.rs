@@ -2,4 +2,6 @@
 
 pub mod clauses;
 mod legs;
+#[cfg(test)]
+mod silence;
 mod way;
