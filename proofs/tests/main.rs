@@ -14,6 +14,7 @@ mod judge_and_rule;
 mod judge_of_agents;
 mod judge_of_chains;
 mod judges;
+mod kit_readings;
 mod local;
 mod local_rules;
 mod log;
