@@ -1,6 +1,6 @@
-//! Two robots that keep in touch as published (Peiris, sections 3 to 5), played plainly: a robot's marks are kept by node
-//! and side, as the paper keeps them, so that readings of the request and of the mark can be played that the kernel,
-//! which marks paths, does not have. Nothing of the kernel is used.
+//! Two robots that keep in touch as published (Peiris, sections 3 to 5), played plainly: a robot's marks are kept by
+//! node and side, as the paper keeps them, so that readings of the request and of the mark can be played that the
+//! kernel, which marks paths, does not have. Nothing of the kernel is used.
 //!
 //! Nodes are numbered row by row, sides are east, south, west, north from 0. A step is an arrival, a look ahead, or a
 //! decision. Walls are decided as robots look at them, and where it is a matter of speeds whether a robot is seen, both
@@ -30,8 +30,8 @@ pub(super) enum Asks {
     NewNodesAndTurns,
 }
 
-/// The side that a robot marks at the node to which it comes (row 105). At the node that it leaves, it always marks the
-/// side by which it leaves: “keep track of their turning directions”.
+/// The side that a robot marks at the node to which it comes, when it comes (row 105). At the node that it leaves, it
+/// always marks the side by which it leaves: “keep track of their turning directions”.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Marks {
     /// The one through which it has come.
@@ -477,7 +477,7 @@ impl Setting {
 
     /// The demands that are broken if a run ends here.
     pub(super) fn broken_at_end(&self, state: &State) -> Vec<Demand> {
-        let entered = &state.robots[..1 + usize::from(state.has_entered)];
+        let entered = &state.robots[..=usize::from(state.has_entered)];
         let is_asked = entered.iter().any(|robot| robot.task == Task::Asks);
         let is_owed = self.joint_way(state, state.robots.map(|robot| robot.to)).is_some();
         let broken = [(Demand::Covers, true), (Demand::Answered, is_asked), (Demand::Moves, is_owed)];
