@@ -200,7 +200,11 @@ fn known_to_the_kernel() -> impl Iterator<Item = Reading> {
 }
 
 /// As [`smallest`], of the kernel's robots.
-fn smallest_of_the_kernel(reading: Reading, (demand, speeds): Question) -> Option<(Size, usize)> {
+fn smallest_of_the_kernel(
+    reading: Reading,
+    (demand, speeds): Question,
+    sizes: &[Size],
+) -> Option<(Size, usize)> {
     let demand = match demand {
         Demand::Contact => world::Demand::Contact,
         Demand::AtNodes => world::Demand::AtNodes,
@@ -214,7 +218,7 @@ fn smallest_of_the_kernel(reading: Reading, (demand, speeds): Question) -> Optio
         Speeds::Any => world::Speeds::Any,
         Speeds::Equal => world::Speeds::Equal,
     };
-    SMALL.iter().find_map(|&(columns, rows, most)| {
+    sizes.iter().find_map(|&(columns, rows, most)| {
         let open = world::Setting::<2>::new(rule(reading), (columns.into(), rows.into())).expect("a lattice");
         let setting = world::Setting { speeds, max_walls: most as u8, ..open };
         let look = |setting: &world::Setting<2>| {
@@ -227,16 +231,17 @@ fn smallest_of_the_kernel(reading: Reading, (demand, speeds): Question) -> Optio
 
 #[test]
 fn the_plain_program_has_the_smallest_counterexamples_of_the_kernel() {
+    // All 3×2 nodes are in reach of each other.
+    let sizes = &SMALL[..5];
     for reading in known_to_the_kernel() {
+        let mut questions = vec![AT_NODES];
         for demand in [Demand::Contact, Demand::Apart, Demand::Moves, Demand::Covers, Demand::Shortens] {
-            for speeds in [Speeds::Any, Speeds::Equal] {
-                let question = (demand, speeds);
-                let plain = smallest(reading, question, &SMALL, EVER);
-                assert_eq!(plain, smallest_of_the_kernel(reading, question), "{reading:?}, {question:?}");
-            }
+            questions.extend([(demand, Speeds::Any), (demand, Speeds::Equal)]);
         }
-        let at_nodes = smallest(reading, AT_NODES, &SMALL, EVER);
-        assert_eq!(at_nodes, smallest_of_the_kernel(reading, AT_NODES), "{reading:?}");
+        for question in questions {
+            let plain = smallest(reading, question, sizes, EVER);
+            assert_eq!(plain, smallest_of_the_kernel(reading, question, sizes), "{reading:?}, {question:?}");
+        }
         assert_eq!(smallest_endless(reading), Some((3, 1, 0)));
     }
 }
