@@ -36,7 +36,8 @@ pub struct Nav {
     pub parent: NodeId,
 }
 
-/// A path node's part in TAN: its conduct until T_x has passed.
+/// A path node's part in TAN: its conduct until T_x has passed. Whoever keeps the time may let a silence that has begun
+/// last on, or begin anew with each packet: the paper says neither.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Guide {
@@ -50,8 +51,8 @@ pub enum Guide {
 
 impl Guide {
     /// A REQNAV has arrived; `own` is the node's place in the tree of that WFR, if it is a path node. The one that is
-    /// asked signals, the others keep silent, each for T_x from now. One that keeps silent for another robot's sake
-    /// does not signal: the robot asks again.
+    /// asked signals, the others keep silent, each for T_x. One that keeps silent for another robot's sake does not
+    /// signal: the robot asks again.
     #[must_use]
     pub fn request(self, request: ReqNav, id: NodeId, own: Option<Nav>) -> Self {
         let own = own.filter(|own| request.node == id && own.node == id && own.wfr == request.wfr);
@@ -62,7 +63,7 @@ impl Guide {
         }
     }
 
-    /// Another node's NAV has been heard: silence for T_x from now, unless it sends itself.
+    /// Another node's NAV has been heard: silence for T_x, unless it sends itself.
     #[must_use]
     pub const fn overhear(self) -> Self {
         match self {

@@ -255,6 +255,12 @@ mod tests {
                 let found = found.expect("it can be decided");
                 assert_eq!((found.verdict, found.cases), (Verdict::Holds, 9208), "{name}: {asked:?}");
             }
+            // Where frontier cells are unexplored a pack leaves cells out in the last areas alone, of 4×3 cells.
+            let covers = demand(OF_FEW, Demand::Covers).decide(&subject, Until::Violation, &mut context);
+            let first =
+                covers.expect("it can be decided").counterexample.expect("cells are left").choices.once;
+            let is_last = first[0] as usize == FEW.len() - 1;
+            assert_eq!(is_last, name.ends_with("unexplored"), "{name}: {first:?}");
         }
     }
 }

@@ -119,8 +119,8 @@ impl World<'_> {
         }
     }
 
-    /// A node's conduct lasts for T_x from now. A silence that has begun is not prolonged: two robots could else keep
-    /// each other's guides silent for ever.
+    /// A node's conduct lasts for T_x from now. A silence that has begun is not prolonged: else each packet would put
+    /// off the node's answer to its own robot.
     fn conduct(&mut self, at: NodeId, guide: Guide, now_ns: u64) {
         let sensor = &mut self.sensors[at.0 as usize];
         if sensor.guide != guide {
