@@ -66,8 +66,8 @@ pub enum NextSensor {
     Least,
     /// The one with the largest gradient: the second sentence.
     Largest,
-    /// The one with the largest gradient, but the target itself where the robot hears it; and where all are visited, the
-    /// sensor that it came from. So the movement ends only when the target is found.
+    /// The one with the largest gradient, but the target itself where the robot hears it; and where all are visited,
+    /// the sensor that it came from. So the movement ends only when the target is found.
     LargestAndBack,
 }
 

@@ -1,5 +1,5 @@
-//! The purpose of the silence in step 2 of TAN [Jiang 2011, 3.4], “to prevent interference”, under three readings of the
-//! nodes that keep it. TAN-4 is about the first, whose node is the kernel's.
+//! The purpose of the silence in step 2 of TAN [Jiang 2011, 3.4], “to prevent interference”, under three readings of
+//! the nodes that keep it. TAN-4 is about the first, whose node is the kernel's.
 //!
 //! A few path nodes and robots stand still, whoever hears whom; a robot asks one node, which hears it. Events are a
 //! REQNAV, which all nodes receive that hear the robot, and a third of T_x. A node sends NAV “continually”: after each
