@@ -291,8 +291,8 @@ impl Table for LocateExplore {
 }
 
 /// How far off an object at `object` is where its printed coordinates (d cos θ, −d sin θ) are taken for its place in
-/// the area, not in the frame of the robot at `robot` that sees it without error (4.5). The origin is the midpoint of the
-/// first cell.
+/// the area, not in the frame of the robot at `robot` that sees it without error (4.5). The origin is the midpoint of
+/// the first cell.
 fn printed_off(robot: Place, heading_rad: f64, object: Place) -> f64 {
     let (turn_rad, far) = Belief::known(robot, heading_rad).towards(object);
     let exact = SightError { bearing_rad: 0.0, distance_m: 0.0 };
