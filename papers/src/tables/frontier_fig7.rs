@@ -129,7 +129,7 @@ impl Table for FrontierFig7 {
                 "frontier-fig7 --blocked 12 --runs 100 --format json",
             ],
             doing: "exploring",
-            takes: "a minute",
+            takes: "minutes",
             pictures: &[("svg", "Store a chart of the team moves")],
             ..Description::NOTHING
         }
@@ -274,8 +274,7 @@ fn follow(
     layout.place_base(base)?;
     let limits = Limits { max_moves: NonZeroU32::new(MOST_MOVES), ..Limits::default() };
     let setup = Setup::new(&FRONTIER, rule, starts.len() as u16, layout, base);
-    let setup = Setup { starts: Some(starts.to_vec()), seed, limits, options, ..setup };
-    explore(&setup, &mut |_| Ok(()))
+    explore(&Setup { starts: Some(starts.to_vec()), seed, limits, options, ..setup }, &mut |_| Ok(()))
 }
 
 /// The team moves of a run that break this clause.
