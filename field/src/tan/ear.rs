@@ -50,6 +50,7 @@ impl Signal {
 }
 
 /// How far apart two points are.
+#[inline]
 pub(crate) fn apart_m(one: Point, other: Point) -> f64 {
     let (x_m, y_m) = (one.x_m - other.x_m, one.y_m - other.y_m);
     (x_m * x_m + y_m * y_m).sqrt()
