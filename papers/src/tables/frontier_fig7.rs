@@ -323,8 +323,8 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
     let largest = lines.iter().map(|line| line.robots).max().unwrap_or(BEST);
     let [eight, six] = [8, 6].map(|robots| ends(estimate(|line| line.moves, "wanders", robots)));
     let less = |(rule, who): (&str, &str)| {
-        let [again, saved] = [|line: &Line| line.again, |line: &Line| line.saved]
-            .map(|of: fn(&Line) -> Option<Estimate>| estimate(of, rule, 8));
+        let again = estimate(|line| line.again, rule, 8);
+        let saved = estimate(|line| line.saved, rule, 8);
         Judgement::new(
             "maps are exchanged “to reduce overlapping”",
             who,
