@@ -162,7 +162,7 @@ fn by_a_directional_antenna_robots_arrive_in_spite_of_noise_and_convex_lakes() {
     assert_eq!(arrivals, [100; 4]);
 }
 
-/// Of each way to read Reich's rule: how the journeys ended, arrived or lost, and the whole metres of those that arrived.
+/// By journey and way to read Reich's rule: how the journey ended, and its whole metres.
 fn by_reich(worlds: impl Iterator<Item = World>) -> Vec<[(End, u64); 3]> {
     let orders = [NextSensor::Least, NextSensor::Largest, NextSensor::LargestAndBack];
     let journeys = |mut world: World| {

@@ -86,12 +86,7 @@ fn of_2n_plus_1_squared_cells_the_rim_is_left_out() {
     }
     for (robots, most) in FEW_WALLS {
         let tally = exhaust(|oracle: &mut dyn Oracle| {
-            let mut left = most;
-            let explored = explored_in_larger(robots, |_| {
-                let is_wall = left > 0 && oracle.flip();
-                left -= u32::from(is_wall);
-                !is_wall
-            });
+            let explored = explored_in_larger(robots, open_by(oracle, most));
             let is_inner = |cell: &Cell| area(robots).0.contains(*cell);
             require(explored.iter().all(is_inner), "no robot is at the rim")?;
             Ok("an end")
@@ -137,20 +132,30 @@ fn a_row_and_a_null_move_at_the_end_break_no_sentence_that_holds_as_published() 
 /// All layouts of the paper's area in which a run meets at most so many walls.
 const FEW_WALLS: [(i16, u32); 2] = [(3, 3), (4, 2)];
 
+/// Whether an edge is open of which nobody knows yet: the oracle says which are walls, so many at most.
+fn open_by(oracle: &mut dyn Oracle, most_walls: u32) -> impl FnMut(Edge) -> bool {
+    let mut left = most_walls;
+    move |_| {
+        let is_wall = left > 0 && oracle.flip();
+        left -= u32::from(is_wall);
+        !is_wall
+    }
+}
+
 /// Plays the published chain and one under `reading` side by side in these layouts; `takes_turn` says whether the other
 /// one takes part in a team move of the published one.
 fn play_along(reading: Reading, takes_turn: impl Fn(&PlainIntent) -> bool) {
     for (robots, most) in FEW_WALLS {
         let tally = exhaust(|oracle: &mut dyn Oracle| {
-            let (mut published, mut other, mut left) = (chain(robots, &[]), chain(robots, &[reading]), most);
+            let (mut published, mut other) = (chain(robots, &[]), chain(robots, &[reading]));
+            let mut is_open = open_by(oracle, most);
             loop {
                 let intent = plan(&mut published);
                 let mut answers = Vec::new();
                 published.settle(&intent, |edge| {
-                    let is_wall = left > 0 && oracle.flip();
-                    left -= u32::from(is_wall);
-                    answers.push((edge, !is_wall));
-                    !is_wall
+                    let is_open = is_open(edge);
+                    answers.push((edge, is_open));
+                    is_open
                 });
                 if takes_turn(&intent) {
                     require(plan(&mut other) == intent, "the same plan")?;
@@ -224,16 +229,13 @@ fn four_bits_are_enough_for_one_who_plans_along() {
             let grid = TinyGrid::new(area).ok_or(Stop::Assumed)?;
             let chain = Chain::<_, 4>::new(Rule::PUBLISHED, robots as usize, base, grid);
             let mut sender = chain.map_err(|_| Stop::Assumed)?;
-            let (mut listener, mut log, mut restored, mut left) = (sender, Vec::new(), Vec::new(), most);
+            let (mut listener, mut log, mut restored) = (sender, Vec::new(), Vec::new());
+            let mut is_open = open_by(oracle, most);
             loop {
                 let (sent, heard) = (sender.plan(&log), listener.plan(&restored));
                 require(sent == heard, "the same plan")?;
                 let Ok(Intent::Go(plan)) = sent else { return Ok("an end") };
-                let settled = sender.settle(&plan, |_| {
-                    let is_wall = left > 0 && oracle.flip();
-                    left -= u32::from(is_wall);
-                    !is_wall
-                });
+                let settled = sender.settle(&plan, &mut is_open);
                 log.extend_from_slice(settled.messages());
                 let backtrack =
                     Message { step: Step::Stay, outcome: Outcome::TookBack }.encode() & !FOUR_BITS;

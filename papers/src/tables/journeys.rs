@@ -253,31 +253,18 @@ impl Table for Journeys {
         let cases = self.cases(settings)?.into_iter().enumerate();
         let densities =
             cases.map(|(place, (nodes, shape, _))| Density::of(nodes, shape, &at(&results, place))).collect();
-        let Settings {
-            side_m,
-            range_m,
-            obstacles_m,
-            k,
-            noise_db,
-            scan,
-            reich,
-            near_percent,
-            topologies,
-            seed,
-            ..
-        } = self.whole(settings);
-        let obstacles = obstacles_m.into_iter().flat_map(|Lake(parts)| parts).collect();
+        let whole = self.whole(settings);
         Ok(Summary {
-            side_m,
-            range_m,
-            obstacles,
-            k,
-            noise_db,
-            scan,
-            reich,
-            near_percent,
-            topologies,
-            seed,
+            side_m: whole.side_m,
+            range_m: whole.range_m,
+            obstacles: whole.obstacles_m.into_iter().flat_map(|Lake(parts)| parts).collect(),
+            k: whole.k,
+            noise_db: whole.noise_db,
+            scan: whole.scan,
+            reich: whole.reich,
+            near_percent: whole.near_percent,
+            topologies: whole.topologies,
+            seed: whole.seed,
             densities,
         })
     }

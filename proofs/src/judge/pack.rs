@@ -238,11 +238,12 @@ impl Run {
             |seen: &BTreeMap<Place, bool>, cell: Place| self.floor.has(cell) && !seen.contains_key(&cell);
         let is_frontier = |seen: &BTreeMap<Place, bool>, cell: Place| {
             let around = (0..4).filter_map(|side| beside(cell, side));
-            let is_free = |cell: &Place| seen.get(cell) == Some(&true);
             match self.choice.frontier {
-                Frontier::Explored => is_free(&cell) && around.into_iter().any(|cell| is_unknown(seen, cell)),
+                Frontier::Explored => {
+                    is_free(seen, cell) && around.into_iter().any(|cell| is_unknown(seen, cell))
+                }
                 Frontier::Unexplored => {
-                    is_unknown(seen, cell) && around.into_iter().any(|cell| is_free(&cell))
+                    is_unknown(seen, cell) && around.into_iter().any(|cell| is_free(seen, cell))
                 }
             }
         };
@@ -275,17 +276,16 @@ impl Run {
         others: &[Place],
         is_frontier: impl Fn(Place) -> bool,
     ) -> Option<Aim> {
-        let is_free = |cell: Place| seen.get(&cell) == Some(&true);
         let mut ways = BTreeMap::from([(from, VecDeque::new())]);
         let mut queue = VecDeque::from([from]);
         let mut first: Option<(usize, Place)> = None;
         let mut best: Option<(usize, usize, Place)> = None;
         while let Some(cell) = queue.pop_front() {
             let way: VecDeque<usize> = ways[&cell].clone();
-            // No way leads through an unexplored cell.
-            let sides = if is_free(cell) { 0..SIDES.len() } else { 0..0 };
-            for side in sides {
-                let goes_there = |&next: &Place| is_free(next) || is_frontier(next);
+            for side in 0..SIDES.len() {
+                // A way may end in an unexplored cell, and leads through none.
+                let goes_there =
+                    |&next: &Place| is_free(seen, cell) && (is_free(seen, next) || is_frontier(next));
                 let Some(next) = beside(cell, side).filter(goes_there) else { continue };
                 ways.entry(next).or_insert_with(|| {
                     queue.push_back(next);
@@ -339,6 +339,11 @@ impl Run {
             team.cells[robot] = from;
         }
     }
+}
+
+/// Whether a cell is known to be free.
+fn is_free(seen: &BTreeMap<Place, bool>, cell: Place) -> bool {
+    seen.get(&cell) == Some(&true)
 }
 
 /// Whether a ray goes straight from the midpoint of a cell to that of another one: no obstacle is in a cell that it
