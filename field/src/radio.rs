@@ -19,6 +19,7 @@ mod queue;
 pub use air::{Air, Channel, Faults, Protocol, SharedChannel, run};
 pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Reach, Report, broadcast};
 pub use field::{Area, Field, Obstacle, Point};
+pub(crate) use grid::Grid;
 pub use lake::{Lake, SHAPES};
 pub use names::ChannelName;
 pub use network::{FREE_SPACE, Link, Model, Network, Radio};

@@ -300,6 +300,27 @@ mod tests {
         assert_eq!(scenario.signal(far, Some(place)), scenario.signal(far, None));
     }
 
+    #[test]
+    fn every_node_that_a_robot_hears_is_near_it_and_few_others_are() {
+        for (shadowing_db, most) in [(0.0, 200), (12.0, 700)] {
+            let setting = Setting { shadowing_db, exponent: 3.0, ..setting(RuleName::Repaired) };
+            let scenario = setting.lay_out(&mut SeededOracle::new(0, 0)).expect("a scenario");
+            let nodes = || (0..700).map(NodeId);
+            let mut heard = 0;
+            for (place, at) in nodes().zip(scenario.field.nodes()).step_by(7) {
+                for away_m in [-150.0, -40.0, 0.0, 40.0, 150.0] {
+                    let at = Point { x_m: at.x_m + away_m, y_m: at.y_m - away_m / 2.0 };
+                    let near = scenario.grid.nodes_near(at);
+                    assert!(near.is_sorted() && near.len() <= most);
+                    let hears = |node| scenario.link(node, scenario.signal(node, Some(place)), at).is_some();
+                    let all = nodes().filter(|&node| hears(node));
+                    heard += all.inspect(|node| assert!(near.contains(node), "{at:?}, {node:?}")).count();
+                }
+            }
+            assert!(heard > 1_000, "{heard}");
+        }
+    }
+
     /// Nodes at these places, WFR the first, that flood; robots at these, some of which fail.
     fn row(
         rule: Rule,
@@ -328,6 +349,7 @@ mod tests {
             failing: failing.iter().map(|&(node, at)| (NodeId(node), second(at))).collect(),
             channel: Channel::Ideal,
             faults: Faults::NONE,
+            grid: Scenario::grid(&field, radio),
             field,
             network,
         }

@@ -21,7 +21,7 @@ impl Setting {
     /// so many drives.
     fn fewest_drives(&self, demand: Demand, most_drives: usize) -> Result<usize, usize> {
         let at_end = matches!(demand, Demand::Answered | Demand::Moves | Demand::Covers);
-        let needs_driven = at_end || demand == Demand::Shortens;
+        let needs_driven = at_end || matches!(demand, Demand::Shortens | Demand::AnyShortest);
         let (mut known, mut now) = (FxHashSet::default(), self.starts());
         for drives in 0..=most_drives {
             let mut later = Vec::new();
@@ -146,13 +146,14 @@ const CONTACT: Question = (Demand::Contact, Speeds::Any);
 const AT_EQUAL_SPEEDS: Question = (Demand::Contact, Speeds::Equal);
 const AT_NODES: Question = (Demand::AtNodes, Speeds::Equal);
 
-/// Sizes and drives that no reading changes: of KIT-3 at any and at equal speeds, and of KIT-4, 6, 8 and 11.
-const SAME: [(Question, Size, usize); 6] = [
+/// Sizes and drives that no reading changes: of KIT-3 at any and at equal speeds, and of KIT-4, 6, 8, 10 and 11.
+const SAME: [(Question, Size, usize); 7] = [
     ((Demand::Apart, Speeds::Any), (3, 1, 0), 3),
     ((Demand::Apart, Speeds::Equal), (3, 1, 0), 4),
     ((Demand::Answered, Speeds::Any), (2, 1, 0), 1),
     ((Demand::Moves, Speeds::Any), (3, 1, 0), 1),
     ((Demand::Covers, Speeds::Any), (2, 1, 0), 1),
+    ((Demand::Marks, Speeds::Any), (2, 1, 1), 0),
     ((Demand::Shortens, Speeds::Any), (3, 1, 0), 3),
 ];
 
@@ -211,7 +212,9 @@ fn smallest_of_the_kernel(
         Demand::Apart => world::Demand::Apart,
         Demand::Moves => world::Demand::Moves,
         Demand::Covers => world::Demand::Covers,
+        Demand::Marks => world::Demand::Marks,
         Demand::Shortens => world::Demand::Shortens,
+        Demand::AnyShortest => world::Demand::AnyShortest,
         Demand::Answered | Demand::Fresh => unreachable!("these are about messages"),
     };
     let speeds = match speeds {
@@ -235,7 +238,15 @@ fn the_plain_program_has_the_smallest_counterexamples_of_the_kernel() {
     let sizes = &SMALL[..5];
     for reading in known_to_the_kernel() {
         let mut questions = vec![AT_NODES];
-        for demand in [Demand::Contact, Demand::Apart, Demand::Moves, Demand::Covers, Demand::Shortens] {
+        for demand in [
+            Demand::Contact,
+            Demand::Apart,
+            Demand::Moves,
+            Demand::Covers,
+            Demand::Marks,
+            Demand::Shortens,
+            Demand::AnyShortest,
+        ] {
             questions.extend([(demand, Speeds::Any), (demand, Speeds::Equal)]);
         }
         for question in questions {
@@ -318,7 +329,7 @@ fn plain_robots_come_where_robots_of_the_kernel_come() {
     }
 }
 
-/// Asserts that the sizes of KIT-3, 4, 6, 7, 8 and 11 are those of the main reading.
+/// Asserts that the sizes of KIT-3, 4, 6, 7, 8, 10 and 11 are those of the main reading.
 fn assert_same(reading: Reading) {
     for (question, size, drives) in SAME {
         assert_eq!(
@@ -434,5 +445,26 @@ fn two_walls_are_the_fewest_by_which_contact_is_lost_at_equal_speeds() {
     for (marks, at) in [(Marks::Entrance, At::NewNodes), (Marks::Heading, At::EveryNode)] {
         let reading = Reading { marks, at, ..MAIN };
         assert_eq!(smallest(reading, AT_EQUAL_SPEEDS, &[(5, 2, 1)], EVER), None, "{reading:?}");
+    }
+}
+
+/// Rows 27 and 105, filtered (32) or not: no reading keeps KIT-14, and what is marked does not change its size.
+#[test]
+fn where_robots_ask_a_robot_may_take_again_a_path_that_begins_no_shortest_way() {
+    for (runs, asks, expected) in [
+        (Runs::Every, Asks::Everywhere, ((3, 1, 0), 3)),
+        (Runs::Every, Asks::NewNodes, ((3, 1, 0), 3)),
+        (Runs::Ahead, Asks::Everywhere, ((4, 1, 0), 5)),
+        (Runs::Ahead, Asks::BeforeTurns, ((3, 1, 0), 3)),
+        (Runs::Ahead, Asks::NewNodes, ((3, 1, 0), 5)),
+        (Runs::Ahead, Asks::NewNodesAndTurns, ((3, 1, 0), 5)),
+    ] {
+        for (marks, at) in MARKS.into_iter().chain([(Marks::Entrance, At::EveryNode)]) {
+            for fallback in [Fallback::All, Fallback::Filtered] {
+                let reading = Reading { runs, asks, marks, at, fallback };
+                let found = smallest(reading, (Demand::AnyShortest, Speeds::Any), &SMALL, EVER);
+                assert_eq!(found, Some(expected), "{reading:?}");
+            }
+        }
     }
 }

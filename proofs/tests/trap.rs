@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Floor, Mark, Sensor, settle};
+use tautline_kernel::floor::{Floor, Mark, Sensor, SensorFate, settle};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::floor::crew::Scheme;
 use tautline_proofs::floor::trap::{Bounds, End, Trap, TrapReport, hunt};
@@ -142,6 +142,19 @@ fn the_smallest_trap_has_nine_cells_and_one_missed_sensor() {
         assert_eq!((found.trap, found.is_complete, found.levels), (Some(smallest()), true, 1));
         assert_eq!(found.layouts, 14_324);
     }
+}
+
+/// Row 90 of the readings in `SPEC.md`: the run is finite, so that it has a probability where each scan may miss any sensor.
+#[test]
+fn whatever_becomes_of_a_missed_sensor_one_agent_is_done_too_early_in_the_same_run() {
+    for replaced in [SensorFate::Lost, SensorFate::Beside, SensorFate::Counted] {
+        for rule in [Rule::PUBLISHED, Rule::PUBLISHED.with(Condition::Alone)] {
+            let rule = Rule { replaced, ..rule };
+            assert_eq!(found(&bounds(rule, 1, 1, 3)).trap, Some(smallest()), "{rule:?}");
+        }
+    }
+    // Of eight sensors one is missed, and the others are seen.
+    assert_eq!(run(Rule::PUBLISHED, &notched(), Cell::new(1, 1), &smallest().missed), (Fate::Trapped(5), 8));
 }
 
 #[test]

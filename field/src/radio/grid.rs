@@ -3,9 +3,12 @@
 
 use std::ops::Range;
 
+use tautline_kernel::net::NodeId;
+
 use super::{Area, Point};
 
-pub(super) struct Grid {
+/// Nodes, cell by cell.
+pub(crate) struct Grid {
     columns: usize,
     rows: usize,
     cell_width_m: f64,
@@ -29,7 +32,8 @@ const CELLS_OFF: usize = 2;
 const ROOM: f64 = 1.000_001;
 
 impl Grid {
-    pub(super) fn new(area: Area, points: &[Point], reach_m: f64) -> Self {
+    /// The nodes at `points`, whose signals reach so far.
+    pub(crate) fn new(area: Area, points: &[Point], reach_m: f64) -> Self {
         // More cells than nodes would only be empty.
         let most = f64::from(points.len() as u32).sqrt().ceil();
         let cells =
@@ -74,6 +78,14 @@ impl Grid {
     pub(super) fn near(&self, point: Point) -> impl Iterator<Item = Range<usize>> + use<'_> {
         let (column, row) = self.column_and_row(point);
         self.beside(column, row)
+    }
+
+    /// Whoever is within reach of `point`, and some who are not, ascending.
+    pub(crate) fn nodes_near(&self, point: Point) -> Vec<NodeId> {
+        let places = self.near(point).flat_map(|places| &self.places[places]);
+        let mut nodes: Vec<NodeId> = places.map(|place| NodeId(place.node)).collect();
+        nodes.sort_unstable();
+        nodes
     }
 
     fn beside(&self, column: usize, row: usize) -> impl Iterator<Item = Range<usize>> + use<'_> {

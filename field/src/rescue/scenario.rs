@@ -10,9 +10,9 @@ use tautline_kernel::notice::{self, Count, Scheme};
 use super::problem::MAX_STATES;
 use super::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
 use crate::radio::{
-    self, Area, Channel, Faults, Field, LONGEST_WAIT_NS, Link, Model, Network, Obstacle, Point, Radio,
+    self, Area, Channel, Faults, Field, Grid, LONGEST_WAIT_NS, Link, Model, Network, Obstacle, Point, Radio,
 };
-use crate::tan::{Equipment, Signal, hops};
+use crate::tan::{Equipment, ROBOT_REACH, Signal, hops};
 use tautline_grids::chance::Probability;
 use tautline_sim::explore::RuleName;
 
@@ -34,6 +34,8 @@ pub(super) struct Scenario {
     pub(super) equipment: Equipment,
     pub(super) field: Field,
     pub(super) network: Network,
+    /// The nodes that hear a robot are near it.
+    pub(super) grid: Grid,
     pub(super) channel: Channel,
     pub(super) faults: Faults,
     pub(super) wfrs: Vec<Caller>,
@@ -89,6 +91,7 @@ impl Setting {
         };
         let field = Field::random(Area::new(width_m, height_m)?, obstacles, self.nodes, chance)?;
         let network = Network::new(&field, radio, chance)?;
+        let grid = Scenario::grid(&field, radio);
         let mut wfrs = self.wfrs(&network, chance)?;
         let robots = self.robots(&field, chance)?;
         let others = (0..self.nodes as u32)
@@ -111,6 +114,7 @@ impl Setting {
             equipment: Equipment::new(radio, self.noise_db)?,
             field,
             network,
+            grid,
             channel: self.channel.channel(),
             faults,
             wfrs,
@@ -230,6 +234,11 @@ fn early_ns(chance: &mut dyn Oracle) -> u64 {
 }
 
 impl Scenario {
+    /// The nodes of `field`, so that those are found that a robot hears.
+    pub(super) fn grid(field: &Field, radio: Radio) -> Grid {
+        Grid::new(field.area(), field.nodes(), ROBOT_REACH * radio.reach_m())
+    }
+
     /// How many events happen at each WFR.
     pub(super) fn events(&self) -> usize {
         1 + self.wfrs.first().map_or(0, |caller| caller.pauses_ns.len())

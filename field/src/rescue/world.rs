@@ -356,7 +356,7 @@ impl Protocol for World<'_> {
         match self.robot(at).map(|robot| &self.rovers[robot]) {
             None => links.extend(robots().filter_map(|(to, rover)| self.link(at, rover, to))),
             Some(sender) => {
-                let nodes = (0..self.scenario.network.nodes() as u32).map(NodeId);
+                let nodes = self.scenario.grid.nodes_near(sender.at).into_iter();
                 links.extend(nodes.filter_map(|to| self.link(to, sender, to)));
                 let others = robots().filter(|&(to, _)| to != at);
                 links

@@ -147,9 +147,14 @@ pub const CLAUSES: [Clause; 3] = [
 
 #[cfg(test)]
 mod tests {
+    use rustc_hash::FxHashSet;
+    use tautline_kernel::floor::COMPASS;
+
     use super::*;
     use crate::engine::states::steps;
-    use crate::floor::team::Team;
+    use crate::floor::crew::SensorData;
+    use crate::floor::small::StateOf;
+    use crate::floor::team::{Demands, Team};
 
     /// A cell in the dark reads 0 however often an ant has been there; of equals an ant goes to the first in the order
     /// of the compass.
@@ -168,5 +173,51 @@ mod tests {
             }
             assert!(!state.sensors.is_explored(&team.plan), "{subject:?}");
         }
+    }
+
+    /// Where each scan may miss any sensor (row 90 of the readings in `SPEC.md`), all are seen but one beside the ant, whose
+    /// cell it enters then: so it can be led to any cell, until it enters one that counts nothing.
+    #[test]
+    fn an_ant_is_led_to_any_cell_beside_it_by_a_sensor_that_it_misses_or_explores_another_one() {
+        for subject in [LOSING, STAYING, COUNTING] {
+            assert_is_led(&subject, 1);
+            assert_is_led(&subject.on(&[UncountedStart]), 1);
+        }
+        assert_is_led(&REPAIRED.rule, 1);
+        // A cell may have two sensors.
+        assert_is_led(&Subject::of(Apart), 2);
+    }
+
+    fn assert_is_led<S: Demands>(subject: &Subject<S>, most_sensors: u8) {
+        let mut looked_at = 0;
+        for team in Series::missing(Area::blocked(3, 2), 1, 3).teams(subject, Demand::Explores) {
+            let mut left: Vec<_> = team.starts().collect();
+            let mut known = FxHashSet::default();
+            while let Some(state) = left.pop() {
+                if !known.insert(state.clone()) {
+                    continue;
+                }
+                let made: Vec<_> = steps(&team, &state).map(|made| made.state).collect();
+                let uncounted =
+                    |state: &StateOf<S>| state.sensors.cells(&team.plan, |sensor| sensor.crossings() == 0);
+                let cell = state.bodies[0].cell;
+                let beside = COMPASS.into_iter().map(|side| cell.beyond(side));
+                for goal in beside.filter(|&goal| team.plan.place(goal).is_some()) {
+                    let is_led = |after: &&StateOf<S>| {
+                        let misses = after.misses - state.misses;
+                        misses <= most_sensors
+                            && (after.bodies[0].cell == goal || uncounted(after) != uncounted(&state))
+                    };
+                    let may_miss = state.misses + most_sensors <= team.series.max_misses;
+                    assert!(
+                        made.is_empty() || !may_miss || made.iter().any(|after| is_led(&after)),
+                        "{subject:?}, {state:?}"
+                    );
+                    looked_at += usize::from(may_miss && !made.is_empty());
+                }
+                left.extend(made);
+            }
+        }
+        assert!(looked_at > 1000, "{looked_at}");
     }
 }

@@ -89,8 +89,12 @@ pub(super) enum Demand {
     Moves,
     /// KIT-8. No robot ever knows that all is done, so every end breaks it.
     Covers,
+    /// KIT-10, of sides seen blocked.
+    Marks,
     /// KIT-11.
     Shortens,
+    /// KIT-14.
+    AnyShortest,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -300,7 +304,23 @@ impl Setting {
                 steps.push(self.arrived(state, robot));
             }
         }
+        for step in steps.iter_mut().filter(|step| self.leaves_blocked_side_unmarked(&step.after)) {
+            step.breaks.push(Demand::Marks);
+        }
         steps
+    }
+
+    /// Whether a path that was seen blocked is marked at neither end.
+    fn leaves_blocked_side_unmarked(&self, state: &State) -> bool {
+        let marks = state.robots[0].marks | state.robots[1].marks;
+        let is_marked = |node: u8, side: u8| marks >> (4 * node + side) & 1 == 1;
+        (0..self.size.0 * self.size.1).any(|node| {
+            (0..4).any(|side| {
+                let Some(to) = self.beyond(node, side) else { return false };
+                let is_blocked = state.walls & Self::path(node, to) != 0;
+                is_blocked && !is_marked(node, side) && !is_marked(to, (side + 2) % 4)
+            })
+        })
     }
 
     fn arrived(&self, state: &State, robot: usize) -> Step {
@@ -351,14 +371,21 @@ impl Setting {
         for (mut seen, is_free) in
             ahead.map_or_else(|| vec![(now, false)], |side| self.see(&now, robot, side))
         {
-            if is_free {
-                steps.extend(ahead.map(|side| self.drives(&seen, robot, side)));
+            if let Some(side) = ahead.filter(|_| is_free) {
+                let mut step = self.drives(&seen, robot, side);
+                step.breaks.extend(self.broken_by_taking(&seen, robot, &[side]));
+                steps.push(step);
             } else if turns_unasked {
                 seen.robots[robot].task = Task::Asks;
                 steps.push(Step { after: seen, robot, is_drive: false, breaks: Vec::new() });
             } else {
-                let turns = steps.len();
-                self.turns(&seen, robot, next, self.sides(&seen, robot, next), &mut steps);
+                let (turns, sides) = (steps.len(), self.sides(&seen, robot, next));
+                self.turns(&seen, robot, next, sides, &mut steps);
+                let looks = if ahead.is_some() { Vec::new() } else { self.looks(&seen, robot, next, sides) };
+                if let Some(demand) = self.broken_by_taking(&seen, robot, &looks) {
+                    let drives = steps[turns..].iter_mut().filter(|step| step.is_drive);
+                    drives.for_each(|step| step.breaks.push(demand));
+                }
                 if next != other.map(|other| other.to) {
                     steps[turns..].iter_mut().for_each(|step| step.breaks.push(Demand::Fresh));
                 }
@@ -382,18 +409,26 @@ impl Setting {
         [uncovered, all]
     }
 
-    /// It looks at any of the uncovered sides that are `left`, and then at that of the others that leads nearest to
-    /// where the other one goes, until one is free.
-    fn turns(&self, state: &State, robot: usize, next: Option<u8>, left: [u8; 2], steps: &mut Vec<Step>) {
+    /// The sides at one of which it looks next: any of the uncovered ones that are `left`, else that of the others that
+    /// leads nearest to where the other one goes.
+    fn looks(&self, state: &State, robot: usize, next: Option<u8>, left: [u8; 2]) -> Vec<u8> {
         let at = state.robots[robot].to;
         let far = |side: u8| match (self.beyond(at, side), next) {
             (Some(to), Some(next)) => self.apart(to, next),
             (None, _) | (_, None) => 0,
         };
+        let sides = |list: u8| (0..4).filter(move |side| list >> side & 1 == 1);
+        if left[0] != 0 {
+            return sides(left[0]).collect();
+        }
+        let least = sides(left[1]).map(far).min();
+        sides(left[1]).filter(|&side| Some(far(side)) == least).collect()
+    }
+
+    /// It looks at one side after the other until one is free.
+    fn turns(&self, state: &State, robot: usize, next: Option<u8>, left: [u8; 2], steps: &mut Vec<Step>) {
         let list = usize::from(left[0] == 0);
-        let sides = || (0..4).filter(|side| left[list] >> side & 1 == 1);
-        let least = sides().map(far).min();
-        for side in sides().filter(|&side| list == 0 || Some(far(side)) == least) {
+        for side in self.looks(state, robot, next, left) {
             let mut fewer = left;
             fewer[list] &= !(1 << side);
             for (seen, is_free) in self.see(state, robot, side) {
@@ -430,6 +465,27 @@ impl Setting {
             seen.extend((!is_sure).then_some((open, true)));
         }
         seen
+    }
+
+    /// KIT-14, if it is broken by a robot that may take any of these sides after one look: those that were driven must
+    /// be those that begin a shortest joint way.
+    fn broken_by_taking(&self, state: &State, robot: usize, looks: &[u8]) -> Option<Demand> {
+        let (at, places) = (state.robots[robot].to, state.robots.map(|robot| robot.to));
+        let is_old =
+            |side: u8| self.beyond(at, side).is_some_and(|to| state.driven & Self::path(at, to) != 0);
+        let other = state.other(robot)?;
+        let far = self.joint_way(state, places);
+        let is_due = |side: u8| {
+            let to = self.beyond(at, side).filter(|&to| is_old(side) && !other.has(to))?;
+            let is_near = other.ends().iter().all(|&end| self.near(at, end) && self.near(to, end));
+            let mut after = places;
+            after[robot] = to;
+            let left = self.joint_way(state, after).filter(|_| is_near)?;
+            (Some(left + 1) == far).then_some(())
+        };
+        let sides = || (0..4_u8).map(|side| (is_old(side) && looks.contains(&side), is_due(side).is_some()));
+        let takes_old = sides().any(|(is_taken, _)| is_taken);
+        (takes_old && sides().any(|(is_taken, is_due)| is_taken != is_due)).then_some(Demand::AnyShortest)
     }
 
     fn drives(&self, state: &State, robot: usize, side: u8) -> Step {
