@@ -67,6 +67,7 @@ enum Slip {
     StartsInNoState,
     FifthStartsFarAway,
     StartsBeyondAll,
+    AdmitsNothing,
 }
 
 const LEASH: Leash = Leash {
@@ -111,6 +112,9 @@ impl Local for Leash {
     }
 
     fn admits(&self, plans: &[Plan<u8, Step>]) -> bool {
+        if self.slip == Slip::AdmitsNothing {
+            return false;
+        }
         let is_white = (plans[0].robot.at.x + plans[0].robot.at.y).rem_euclid(2) == 0;
         if self.slip == Slip::OnWhiteAlone && !is_white {
             return true;
@@ -231,6 +235,9 @@ fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
     insta::assert_snapshot!(refusal(Slip::FifthStartsFarAway), @"a team of 5 may not start so: 0,0 0 | 6,9 0");
     insta::assert_snapshot!(refusal(Slip::StartsBeyondAll),
         @"a team of 2 starts in -32768,0, more than 16000 columns or rows from 0,0: let it start nearer");
+    insta::assert_snapshot!(refusal(Slip::AdmitsNothing),
+        @"the rule admits no plan of robots that keep the promise, as far as is looked: the promise \
+          would be about nothing; let admits say yes to a plan, such as that all stay");
     let reach = Invariant::of(&Leash { reach: -1, ..LEASH }).expect_err("it is refused").to_string();
     insta::assert_snapshot!(reach, @"the promise looks -1 cells far: give 0 or more");
     let fewer = EveryNumber { teams: "up to four robots", most_starts: 4, ..EveryNumber::DEFAULT };

@@ -301,8 +301,8 @@ pub(crate) fn decide_every_number(
 fn decided(py: Python<'_>, rule: &LocalScript, with_certificate: bool) -> PyResult<EveryNumberReport> {
     let (script, method) = (&rule.script, EveryNumber::DEFAULT);
     let refused = |why: MethodError| {
-        let remedy = "let the rule speak of where robots are from each other, name \
-                      all states, and start with its promise kept";
+        let remedy = "let the rule speak of where robots are from each other, admit something, \
+                      name all states, and start with its promise kept";
         error(py, Kind::Input, why, remedy)
     };
     let cache = &mut Cache::default();

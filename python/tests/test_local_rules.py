@@ -96,6 +96,12 @@ def test_a_rule_that_knows_where_it_is_is_refused():
         tautline.decide_every_number(changed(admits=lambda self, plans: plans[0].to[0] >= 0))
 
 
+def test_a_rule_that_admits_nothing_is_refused():
+    with pytest.raises(InputError, match="the promise would be about nothing; let admits say yes") as refused:
+        tautline.decide_every_number(changed(admits=lambda self, plans: False))
+    assert "admit something" in refused.value.remedy
+
+
 @pytest.mark.parametrize(
     ("change", "kind"),
     [

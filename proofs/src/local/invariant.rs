@@ -46,8 +46,8 @@ impl Invariant {
     ///
     /// # Errors
     /// [`MethodError`] if the rule is not the same everywhere, speaks of no robot, has no colour, no state or one that
-    /// is none of its states, an act without an outcome or one that no wall stops, looks too far, may start with a
-    /// broken promise, or may not start.
+    /// is none of its states, an act without an outcome or one that no wall stops, admits nothing, looks too far, may
+    /// start with a broken promise, or may not start.
     pub fn of<R: Local>(rule: &R) -> Result<Self, MethodError> {
         Self::found(&ByNumber::new(rule))
     }
@@ -72,6 +72,9 @@ impl Invariant {
             }
             found = Self::within(rule, window)?;
         }
+        let why = "the rule admits no plan of robots that keep the promise, as far as is looked: the promise would be \
+                   about nothing; let admits say yes to a plan, such as that all stay";
+        MethodError::unless(found.cases > 0, why)?;
         Ok(found)
     }
 
