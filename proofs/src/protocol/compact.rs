@@ -96,6 +96,34 @@ impl Compact for usize {
     }
 }
 
+/// As the `usize` that has the sign as its lowest bit: numbers near 0 are short.
+impl Compact for isize {
+    #[inline]
+    fn write(&self, to: &mut Vec<u8>) {
+        let sign = *self >> (Self::BITS - 1);
+        (self << 1 ^ sign).cast_unsigned().write(to);
+    }
+
+    #[inline]
+    fn read(from: &mut &[u8]) -> Self {
+        let bits = usize::read(from);
+        (bits >> 1).cast_signed() ^ -((bits & 1).cast_signed())
+    }
+}
+
+/// As its number.
+impl Compact for char {
+    #[inline]
+    fn write(&self, to: &mut Vec<u8>) {
+        (u32::from(*self) as usize).write(to);
+    }
+
+    #[inline]
+    fn read(from: &mut &[u8]) -> Self {
+        u32::try_from(usize::read(from)).ok().and_then(Self::from_u32).unwrap_or_default()
+    }
+}
+
 impl Compact for bool {
     fn write(&self, to: &mut Vec<u8>) {
         to.push((*self).into());
@@ -383,6 +411,9 @@ mod tests {
         }
         comes_back((0x1234_u16, -3_i8, true), 4);
         comes_back((127_usize, 128_usize, usize::MAX), 13);
+        comes_back((0_isize, -1_isize, 63_isize, -64_isize, 64_isize), 1 + 1 + 1 + 1 + 2);
+        comes_back((isize::MIN, isize::MAX), 20);
+        comes_back(('a', '\u{e9}', char::MAX, '\0'), 1 + 2 + 3 + 1);
         comes_back((None::<u8>, Some([1_u32, 2]), 7_u64, [Some(false); 3]), 24);
         comes_back(vec![(vec![1_u8, 2], 3_u128), (vec![], 4)], 1 + 3 + 16 + 1 + 16);
         comes_back(Lamp { light: Light::On, hours: -700 }, 3);
