@@ -20,12 +20,10 @@ bound! {
     /// Machines of a ring, and the states of each.
     pub Machines { machines: usize, states: u8 }
     "{machines} machines of {states} states, all starts, one at a time in any order";
-    machines > 1 && machines <= ACTS.len() && states > 1, "a ring has two to ten machines of at least two states"
+    machines > 1 && states > 1, "a ring has two machines or more, of at least two states each";
+    machines < 64 && usize::from(states).checked_pow(machines as u32).is_some(),
+        "{machines} machines of {states} states have too many starts"
 }
-
-/// The acts of machines, by their numbers.
-const ACTS: [&str; 10] =
-    ["0 acts", "1 acts", "2 acts", "3 acts", "4 acts", "5 acts", "6 acts", "7 acts", "8 acts", "9 acts"];
 
 /// The state of the left neighbour.
 fn left(ring: &[u8], machine: usize) -> u8 {
@@ -54,11 +52,11 @@ impl Protocol for Rule {
         combinations(vec![(0..states).collect(); machines])
     }
 
-    /// All machines are the same two actors: nobody need be fair to them, and moves are told by their words alone.
+    /// All machines are one actor: nobody need be fair to them.
     fn moves(&self, bound: &Machines, ring: &Vec<u8>) -> Vec<Move<Vec<u8>>> {
         let counts_on = |machine| *self == Self::CountsOn || *self == Self::Published && machine == 0;
         let next = |machine| (left(ring, machine) + u8::from(counts_on(machine))) % bound.states;
-        let act = |machine| Move::of_all(2, ACTS[machine], with(ring, machine, next(machine)));
+        let act = |machine| Move::of(0, "acts", with(ring, machine, next(machine))).by(machine);
         (0..ring.len()).filter(|&machine| self.has_privilege(ring, machine)).map(act).collect()
     }
 

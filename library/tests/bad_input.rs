@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 use tautline_library::{dijkstra, gathering, ricart};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
-use tautline_proofs::decide::{Method, RandomRuns, Verdict};
+use tautline_proofs::decide::{Depiction, Method, RandomRuns, Verdict};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::ledger;
 use tautline_proofs::protocol::{Compact, Keeps, Move, Protocol, Ring, Start};
@@ -89,9 +89,34 @@ fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
         assert_eq!(refused(&gathering::RULE, ring, 0), words);
     }
     assert_eq!(refused(&ricart::RULE, ricart::Net::of(9, 0), 0), "there are 1 to 8 nodes, not 9");
-    let words = "a ring has two to ten machines of at least two states";
-    assert_eq!(refused(&dijkstra::Rule::Published, dijkstra::Machines::of(1, 5), 0), words);
+    for (machines, states, words) in [
+        (1, 5, "a ring has two machines or more, of at least two states each"),
+        (63, 3, "63 machines of 3 states have too many starts"),
+        (1_000_000, 2, "1000000 machines of 2 states have too many starts"),
+    ] {
+        let machines = dijkstra::Machines::of(machines, states);
+        assert_eq!(refused(&dijkstra::Rule::Published, machines, 0), words);
+    }
     assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7: the rule has 1");
+}
+
+/// Machines are no actors, so that there may be more of them than a protocol has actors.
+#[test]
+fn a_ring_of_more_than_ten_machines_is_told_machine_by_machine() {
+    static CLAUSE: Clause = Clause {
+        id: "RING-1",
+        sentence: "There MUST be one privilege.",
+        checks: &[&Check::refuted(
+            NamedRule::new("too few states", dijkstra::Rule::Published),
+            &Keeps::<dijkstra::Rule>(dijkstra::Machines::of(17, 2), 1),
+        )],
+    };
+    let rows = ledger::decide_all(&[&CLAUSE]).expect("it is decided");
+    let Some(Depiction::Story(story)) = rows[0].decision.counterexample.as_ref().map(|found| &found.seen)
+    else {
+        panic!("{rows:?}")
+    };
+    assert!((0..17).all(|machine| story.contains(&format!("{machine} acts"))), "{story}");
 }
 
 /// The set of all eight nodes fits into its byte.

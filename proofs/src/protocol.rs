@@ -56,6 +56,12 @@ pub trait Protocol: Clone + Sync + 'static {
         Vec::new()
     }
 
+    /// The name of the actor with this number, or of whoever else a move is said to be made by ([`Move::by()`]), above
+    /// a drawing of the move: the number, unless there is more to tell.
+    fn actor(&self, number: usize) -> String {
+        number.to_string()
+    }
+
     /// A drawing of `state`, in lines.
     fn draw(&self, _: &Surroundings<Self>, state: &Self::State) -> String {
         self.words(state)
@@ -82,6 +88,8 @@ pub struct Move<S> {
     pub words: &'static str,
     /// The state to which it leads.
     pub to: S,
+    /// The number of whoever is said to make it, if that is another one than its actor: see [`Self::by()`].
+    pub by: Option<usize>,
     /// A number that no actor can have, for which a check is refused.
     no_actor: Option<usize>,
 }
@@ -91,7 +99,7 @@ impl<S> Move<S> {
     pub const fn of(actor: usize, words: &'static str, to: S) -> Self {
         let is_one = actor < Bits::BITS as usize;
         let (actors, no_actor) = if is_one { (1 << actor, None) } else { (0, Some(actor)) };
-        Self { actors, words, to, no_actor }
+        Self { actors, words, to, by: None, no_actor }
     }
 
     /// A move of so many actors at once, at most 16: else a check is refused.
@@ -99,17 +107,29 @@ impl<S> Move<S> {
         let are_few = actors <= Bits::BITS as usize;
         let (actors, no_actor) =
             if are_few { (((1_u32 << actors) - 1) as Bits, None) } else { (0, Some(actors - 1)) };
-        Self { actors, words, to, no_actor }
+        Self { actors, words, to, by: None, no_actor }
     }
 
     /// A move of these actors at once, a bit for each: see [`set`].
     pub const fn of_set(actors: Bits, words: &'static str, to: S) -> Self {
-        Self { actors, words, to, no_actor: None }
+        Self { actors, words, to, by: None, no_actor: None }
     }
 
     /// A fault.
     pub const fn fault(words: &'static str, to: S) -> Self {
         Self::of_set(0, words, to)
+    }
+
+    /// The move, said to be made by whoever has this number, which may be any. So a story tells machines apart that are
+    /// one actor, as no run need be fair to each of them.
+    #[must_use]
+    pub fn by(self, number: usize) -> Self {
+        Self { by: Some(number), ..self }
+    }
+
+    /// The number of whoever is said to make it, or of its only actor.
+    fn maker(&self) -> Option<usize> {
+        self.by.or_else(|| self.actors.is_power_of_two().then(|| self.actors.trailing_zeros() as usize))
     }
 
     /// The move, if it is possible.

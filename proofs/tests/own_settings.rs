@@ -4,7 +4,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
-use tautline_proofs::decide::{Answer, Cache, Context, EveryAnswer, Method, Verdict};
+use tautline_proofs::decide::{Answer, Cache, Context, Depiction, EveryAnswer, Method, Verdict};
 use tautline_proofs::engine::states::{Limits, MemoryLimit};
 use tautline_proofs::engine::tree::{self, Tree, Waves, unwatched};
 use tautline_proofs::engine::{Outcome, Until, assume};
@@ -309,6 +309,45 @@ fn an_actor_that_there_cannot_be_is_refused_with_its_move() {
     }
     let all = [16, 17].map(|actors| Move::of_all(actors, "go", ()));
     assert_eq!((all[0].actors, all[1].actors), (u16::MAX, 0));
+}
+
+/// Machines that are one actor, an actor with a name, two actors at once, and a fault.
+#[derive(Clone, Copy)]
+struct Named;
+
+impl Protocol for Named {
+    type Bound = Numbers;
+    type State = u8;
+    demands! { always "it stays below 4", |_, _, _, &after| after < 4; }
+
+    fn starts(&self, _: &Numbers) -> impl IntoIterator<Item = u8> {
+        [0]
+    }
+
+    fn moves(&self, _: &Numbers, &state: &u8) -> Vec<Move<u8>> {
+        vec![match state {
+            0 => Move::of(0, "acts", 1).by(41),
+            1 => Move::of(1, "opens", 2),
+            2 => Move::of_all(2, "both go", 3),
+            _ => Move::fault("a message is lost", 4),
+        }]
+    }
+
+    fn actor(&self, number: usize) -> String {
+        if number == 1 { "the door".to_owned() } else { format!("machine {number}") }
+    }
+}
+
+#[test]
+fn a_move_is_told_by_the_name_of_whoever_makes_it() {
+    let answer = decided(&protocol::Keeps::<Named>(Numbers { actor: 0, starts: 1 }, 0), &Named);
+    let Some(Depiction::Story(story)) = answer.counterexample.map(|found| found.seen) else {
+        panic!("it is refuted by a story")
+    };
+    insta::assert_snapshot!(story, @r"
+    start   machine 41 acts   the door opens   both go   a message is lost
+    0       1                 2                3         4
+    ");
 }
 
 /// A body that panics for one rule.

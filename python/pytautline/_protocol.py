@@ -3,14 +3,17 @@
 from bisect import insort
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ._rule import Cell, Demand
 
+if TYPE_CHECKING:
+    from typing_extensions import disjoint_base
+else:
+    disjoint_base = lambda moves: moves
 
-class Move(NamedTuple):
-    """A move to another state."""
 
+class _Move(NamedTuple):
     actors: tuple[int, ...]
     """The actors, from 0 to 15. With none of them it is a fault, which no run is bound to meet."""
     words: str
@@ -18,10 +21,22 @@ class Move(NamedTuple):
     to: Any
     """The state to which it leads."""
 
+
+# A move has an attribute beside those of the tuple, so that it is still taken apart into three.
+@disjoint_base
+class Move(_Move):
+    """A move to another state."""
+
+    by: int | None = None
+    """The number of whoever is said to make it, if that is another one than its actor; it may be any."""
+
     @classmethod
-    def of(cls, actor: int, words: str, to: Hashable) -> "Move":
-        """A move of one actor."""
-        return cls((actor,), words, to)
+    def of(cls, actor: int, words: str, to: Hashable, by: int | None = None) -> "Move":
+        """A move of one actor, or one that is said to be made ``by`` another one."""
+        made = cls((actor,), words, to)
+        if by is not None:
+            made.by = by
+        return made
 
     @classmethod
     def of_all(cls, actors: int, words: str, to: Hashable) -> "Move":
@@ -120,6 +135,10 @@ class Protocol:
         demand says the same of them.
         """
         return ()
+
+    def actor(self, number: int) -> str:
+        """The name of an actor, or of whoever else a move is said to be made ``by``, above a drawing of the move."""
+        return str(number)
 
     def draw(self, state: Any) -> str:
         """A drawing of a state, in lines."""

@@ -26,10 +26,10 @@ class Ring(tautline.Protocol):
         return product(range(self.states), repeat=self.machines)
 
     def moves(self, ring):
-        """All machines are the same two actors: nobody need be fair to them, and moves are told by their words alone."""
+        """All machines are one actor: nobody need be fair to them."""
         for machine in self.privileged(ring):
             copied = (ring[machine - 1] + (machine == 0)) % self.states
-            yield Move.of_all(2, f"{machine} acts", (*ring[:machine], copied, *ring[machine + 1 :]))
+            yield Move.of(0, "acts", (*ring[:machine], copied, *ring[machine + 1 :]), by=machine)
 
     def draw(self, ring):
         marks = ("*" if machine in self.privileged(ring) else " " for machine in range(self.machines))

@@ -188,6 +188,26 @@ def test_states_that_are_alike_are_one():
         tautline.decide_protocol(Unlike())
 
 
+def test_a_move_is_told_by_the_name_of_whoever_makes_it():
+    class Named(tautline.Protocol):
+        demands = [tautline.always("NAME-1", "it stays below 3", lambda before, after: after < 3)]
+
+        def starts(self):
+            return [0]
+
+        def moves(self, state):
+            yield Move.of(0, "acts", 1, by=41) if state == 0 else Move.of(1, "opens", 2) if state == 1 else Move.of_all(2, "both go", 3)
+
+        def actor(self, number):
+            return "the door" if number == 1 else f"machine {number}"
+
+    run = tautline.decide_protocol(Named())["NAME-1"].counterexample
+    assert run.story.splitlines()[0].split("   ") == ["start", "machine 41 acts", "the door opens", "both go"]
+    assert [move.by for move in run.moves] == [41, None, None]
+    with pytest.raises(RuleWrongType):
+        tautline.decide_protocol(type("Changed", (Named,), {"actor": lambda self, number: number})())
+
+
 @pytest.mark.parametrize(
     ("change", "complete"), [({"starts": lambda rule: []}, True), ({"covers": ("switches off",)}, True), ({}, False)]
 )
@@ -213,6 +233,7 @@ def test_a_quantifier_over_nothing_a_move_that_never_occurs_and_a_budget_leave_t
         ("alike", 7),
         ("alike", [{}]),
         ("draw", 7),
+        ("actor", 7),
     ],
 )
 def test_an_answer_that_is_none_is_refused(function, answer):
@@ -258,7 +279,7 @@ def test_two_demands_of_one_id_are_refused():
             asked(Twice())
 
 
-@pytest.mark.parametrize("function", ["starts", "moves", "alike", "draw"])
+@pytest.mark.parametrize("function", ["starts", "moves", "alike", "draw", "actor"])
 def test_an_exception_of_the_rule_is_its_cause(function):
     def raises(*_):
         raise LookupError("here")

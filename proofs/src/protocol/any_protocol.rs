@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
-use super::{Compact, Demand, Protocol, Surroundings, When};
+use super::{Compact, Demand, Move, Protocol, Surroundings, When};
 use crate::engine::states::Bits;
 
 /// A state by its bytes.
@@ -60,6 +60,9 @@ pub(super) trait AnyProtocol: Sync {
 
     /// The states that are taken for one with a state.
     fn alike(&self, state: &[u8]) -> Vec<StateBytes>;
+
+    /// The title of the move with this number from a state.
+    fn title(&self, state: &[u8], number: usize) -> String;
 
     /// A drawing of a state.
     fn draw(&self, state: &[u8]) -> String;
@@ -190,6 +193,15 @@ impl<P: Protocol> AnyProtocol for TypedProtocol<P> {
 
     fn alike(&self, state: &[u8]) -> Vec<StateBytes> {
         self.rule.alike(&self.here, &read::<P>(state)).iter().map(|other| self.packed(other)).collect()
+    }
+
+    fn title(&self, state: &[u8], number: usize) -> String {
+        let moves = self.rule.moves(&self.here, &read::<P>(state));
+        let title = |made: &Move<P::State>| match made.maker() {
+            Some(maker) => format!("{} {}", self.rule.actor(maker), made.words),
+            None => made.words.to_owned(),
+        };
+        moves.get(number).map_or_else(String::new, title)
     }
 
     fn draw(&self, state: &[u8]) -> String {

@@ -259,15 +259,11 @@ impl ErasedProtocol {
     /// The run, drawn state by state.
     fn story(&self, start: &StateBytes, run: &Run<&'static str>) -> Depiction {
         let mut frames = vec![("start".to_owned(), self.draw(&start.bytes))];
-        for (place, (_, step)) in run.played(self, start.clone()).enumerate() {
-            let MoveWords { actors, words, .. } = step.event;
+        let numbers = run.steps.iter().chain(run.round());
+        for (place, ((before, step), &number)) in run.played(self, start.clone()).zip(numbers).enumerate() {
             let again = if place == run.steps.len() { "again: " } else { "" };
-            let title = if actors.is_power_of_two() {
-                format!("{again}{} {words}", actors.trailing_zeros())
-            } else {
-                format!("{again}{words}")
-            };
-            frames.push((title, self.draw(&step.state.bytes)));
+            let title = self.title(&before.bytes, number as usize);
+            frames.push((format!("{again}{title}"), self.draw(&step.state.bytes)));
         }
         let end = match run.ending {
             Ending::There => "",

@@ -49,10 +49,14 @@ impl StateRun {
         let mut made = |&choice: &u32| -> PyResult<Py<PyAny>> {
             let chosen = posed.moves(&(), &state).into_iter().nth(choice as usize);
             script.script.checked(py)?;
-            let Move { actors, words, to, .. } = chosen.ok_or_else(|| script.script.not_pure(py))?;
+            let Move { actors, words, to, by, .. } = chosen.ok_or_else(|| script.script.not_pure(py))?;
             state = to;
             let actors: Vec<u32> = (0..Bits::BITS).filter(|actor| actors >> actor & 1 == 1).collect();
-            Ok(class.call1((PyTuple::new(py, actors)?, words, script.script.state(py, to)))?.unbind())
+            let made = class.call1((PyTuple::new(py, actors)?, words, script.script.state(py, to)))?;
+            if by.is_some() {
+                made.setattr("by", by)?;
+            }
+            Ok(made.unbind())
         };
         Ok(Self {
             clause: wanted.clause,

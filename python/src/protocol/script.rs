@@ -105,11 +105,17 @@ impl StateScript {
         let wrong = || wrong_answer("moves", made, MOVES);
         let (List(actors), words, to): (List<u32>, String, Bound<'_, PyAny>) =
             made.extract().map_err(|_| wrong())?;
+        let by = made.getattr_opt("by")?.map(|by| by.extract::<Option<usize>>());
+        let by = by.transpose().map_err(|_| wrong())?.flatten();
         if actors.iter().any(|&actor| actor >= Bits::BITS) {
             return Err(wrong());
         }
         let actors = set(actors.into_iter().map(|actor| actor as usize));
-        Ok(Move::of_set(actors, self.met(py, &words)?, self.script.number(py, "moves", &to)?))
+        let made = Move::of_set(actors, self.met(py, &words)?, self.script.number(py, "moves", &to)?);
+        Ok(match by {
+            Some(by) => made.by(by),
+            None => made,
+        })
     }
 
     /// The words of a move, which are met.
@@ -220,6 +226,14 @@ impl Protocol for ScriptCheck {
         rule.answer(|py| {
             let state = (rule.script.state(py, state),);
             rule.states(py, "alike", "return a list of states", |rule| rule.call_method1("alike", state))
+        })
+    }
+
+    fn actor(&self, number: usize) -> String {
+        let Self(rule, _) = self;
+        rule.answer(|py| {
+            let name = rule.script.called(py, "actor", |rule| rule.call_method1("actor", (number,)))?;
+            name.extract().map_err(|_| wrong_answer("actor", &name, "return a string, in one line"))
         })
     }
 
