@@ -8,6 +8,7 @@ use std::any::Any;
 use std::fmt;
 
 pub use self::bodies::{Body, EveryAnswer, RandomAnswers};
+pub use self::reasons::cut_short;
 use crate::engine::model::StatesModel;
 use crate::engine::smallest::Certificate;
 use crate::engine::states::{self, AnySystem, Limits, Memory, Step, System};

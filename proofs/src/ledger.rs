@@ -13,7 +13,7 @@ use crate::decide::Verdict;
 
 pub use certificates::{Examination, Misfit, certificate, examine};
 pub use composition::{Theorem, theorems};
-pub use jobs::{Hear, Limits, News, PATIENCE_S, decide, decide_all, hunt};
+pub use jobs::{Hear, Limits, MEMORY_BYTES, News, PATIENCE_S, decide, decide_all, hunt};
 
 /// Clauses of our own that stand together, and a name for what they are about.
 #[derive(Debug)]

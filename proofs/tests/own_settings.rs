@@ -1,6 +1,9 @@
 //! Surroundings of one's own are told, searched and refused in words: the bound says all that a setting fixes, what is
 //! known of the layout is no part of the way to it, and a check that is open or refused says why.
 
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
@@ -348,6 +351,48 @@ fn a_move_is_told_by_the_name_of_whoever_makes_it() {
     start   machine 41 acts   the door opens   both go   a message is lost
     0       1                 2                3         4
     ");
+}
+
+/// A number that grows without end.
+#[derive(Clone, Copy)]
+struct Endless;
+
+impl Protocol for Endless {
+    type Bound = Numbers;
+    type State = u64;
+    demands! { always "it grows", |_, _, before, after| after > before; }
+
+    fn starts(&self, _: &Numbers) -> impl IntoIterator<Item = u64> {
+        [0]
+    }
+
+    fn moves(&self, _: &Numbers, &state: &u64) -> Vec<Move<u64>> {
+        vec![Move::of(0, "grows", state + 1)]
+    }
+}
+
+/// Before, memory ended without a word: `decide_all` bounded none.
+#[test]
+fn states_without_end_are_cut_short_and_the_check_says_so() {
+    static CLAUSE: Clause = Clause {
+        id: "GROW-1",
+        sentence: "It MUST grow.",
+        checks: &[&Check::holds(
+            NamedRule::new("endless", Endless),
+            &protocol::Keeps::<Endless>(Numbers { actor: 0, starts: 1 }, 0),
+            &[],
+        )],
+    };
+    let few = ledger::Limits { memory: Arc::new(MemoryLimit::of(1 << 20, 1)), ..ledger::Limits::default() };
+    let hear: ledger::Hear = Arc::new(|_: ledger::News<'_>| ControlFlow::Continue(()));
+    let rows = ledger::decide(&ledger::checks(&[&CLAUSE]), &few, &hear).expect("it is decided");
+    let note = rows[0].decision.note.clone().expect("a note");
+    assert_eq!(rows[0].decision.verdict, Verdict::Open);
+    let words = "states: bound the rule more closely, or give the search more memory or steps";
+    assert!(note.starts_with("cut short after ") && note.ends_with(words), "{note}");
+    assert!(ledger::table(&rows).contains("cut short after "));
+    // As is one of `decide_all`, which takes longer.
+    assert_eq!(ledger::Limits::default().memory.most(), ledger::MEMORY_BYTES / 4 * 3);
 }
 
 /// A body that panics for one rule.

@@ -65,6 +65,11 @@ pub(crate) fn whole(given: &Bound<'_, PyAny>) -> PyResult<i128> {
     given.extract().map(|Int(number)| number)
 }
 
+/// An [`Int`] or none, as of [`whole`].
+pub(crate) fn whole_or_none(given: &Bound<'_, PyAny>) -> PyResult<Option<i128>> {
+    given.extract().map(|given: Option<Int>| given.map(|Int(number)| number))
+}
+
 /// The cell of a column and a row.
 pub(crate) struct At(pub(crate) Cell);
 

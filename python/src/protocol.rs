@@ -15,12 +15,13 @@ use tautline_proofs::clause::{AnyCheck, Check, Clause, NamedRule};
 use tautline_proofs::decide::{MethodError, RandomRuns, Verdict};
 use tautline_proofs::engine::Choices;
 use tautline_proofs::engine::states::{Limits, Unsound};
+use tautline_proofs::plural::counted;
 use tautline_proofs::protocol::Keeps;
 use tautline_sim::counterexample::refutation::{self, Meant};
 
 pub(crate) use self::run::StateRun;
 use self::script::{ScriptCheck, ScriptDemand, StateScript, Words};
-use crate::arguments::{Int, whole};
+use crate::arguments::{Int, whole, whole_or_none};
 use crate::diagnostic::{Kind, error, raised};
 use crate::hunt::verdict;
 use crate::script::held;
@@ -57,6 +58,8 @@ pub(crate) struct Decision {
     complete: bool,
     /// The moves that occurred, of those that must.
     covered: Vec<String>,
+    /// Why the question is open, in words, if it is.
+    note: Option<String>,
     /// A run that breaks the demand: a shortest one if it ends.
     counterexample: Option<Py<StateRun>>,
 }
@@ -82,14 +85,14 @@ impl Decision {
 
 /// Searches all states of a rule for runs that break its demands.
 #[pyfunction]
-#[pyo3(signature = (rule, *, budget=None, patience_s=10.0))]
+#[pyo3(signature = (rule, *, budget=10_000_000, patience_s=10.0))]
 pub(crate) fn decide_protocol(
     py: Python<'_>,
     rule: Bound<'_, PyAny>,
-    budget: Option<Int>,
+    #[pyo3(from_py_with = whole_or_none)] budget: Option<i128>,
     patience_s: f64,
 ) -> PyResult<ProtocolReport> {
-    let budget = Int::optional(budget, py, "budget", 0..=u64::MAX)?;
+    let budget = Int::optional(budget.map(Int), py, "budget", 0..=u64::MAX)?;
     let script = Arc::new(StateScript::read(&rule)?);
     let decisions = script.script.work(py, patience_s, |py| {
         script.begin(py)?;
@@ -213,6 +216,18 @@ fn decide(
         script.covers.iter().filter(|words| met.contains(words.as_str())).cloned().collect();
     let run = found.broken.first().map(|run| run_of(py, script, demand, &run.choices())).transpose()?;
     let is_whole = found.is_whole && found.states > 0 && covered.len() == script.covers.len();
+    let note = (run.is_none() && !is_whole).then(|| {
+        let never = script.covers.iter().filter(|words| !covered.contains(words));
+        match (found.is_whole, found.states) {
+            (false, states) => format!(
+                "budget has ended the search after {}: give it more, bound the rule more closely, or make random \
+                 runs by hunt_protocol",
+                counted(states, "state")
+            ),
+            (true, 0) => "there is no start".to_owned(),
+            (true, _) => format!("never occurred: {}", never.cloned().collect::<Vec<_>>().join(", ")),
+        }
+    });
     Ok(Decision {
         clause,
         words,
@@ -221,6 +236,7 @@ fn decide(
         steps: found.steps,
         complete: found.is_whole,
         covered,
+        note,
         counterexample: run.map(|run| Py::new(py, run)).transpose()?,
     })
 }

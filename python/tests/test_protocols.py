@@ -1,3 +1,4 @@
+import inspect
 import re
 import runpy
 import subprocess
@@ -188,6 +189,23 @@ def test_states_that_are_alike_are_one():
         tautline.decide_protocol(Unlike())
 
 
+def test_states_without_end_are_searched_up_to_a_budget_by_default():
+    class Grows(tautline.Protocol):
+        demands = [tautline.always("GROW-1", "it grows", lambda before, after: after > before)]
+
+        def starts(self):
+            return [0]
+
+        def moves(self, state):
+            yield Move.of(0, "grows", state + 1)
+
+    default = inspect.signature(tautline.decide_protocol).parameters["budget"].default
+    assert default == 10_000_000
+    found = tautline.decide_protocol(Grows(), budget=1000)["GROW-1"]
+    assert (found.verdict, found.complete) == ("open", False)
+    assert found.note.startswith(f"budget has ended the search after {found.states} states: give it more, bound the rule")
+
+
 def test_a_move_is_told_by_the_name_of_whoever_makes_it():
     class Named(tautline.Protocol):
         demands = [tautline.always("NAME-1", "it stays below 3", lambda before, after: after < 3)]
@@ -215,6 +233,8 @@ def test_a_quantifier_over_nothing_a_move_that_never_occurs_and_a_budget_leave_t
     rule = type("Changed", (Lamp,), change)()
     found = tautline.decide_protocol(rule, budget=None if complete else 2)
     assert (found.verdict, found["LAMP-1"].complete, found["LAMP-1"].covered) == ("open", complete, [])
+    why = "budget has ended the search after " if not complete else "never occurred: switches off" if "covers" in change else "there is no start"
+    assert found["LAMP-1"].note.startswith(why)
     with pytest.raises(KeyError):
         found["LAMP-2"]
 

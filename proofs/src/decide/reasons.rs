@@ -1,8 +1,9 @@
-//! Why a check is open: nothing was looked at, or a situation that must occur never did.
+//! Why a check is open: nothing was looked at, a search was cut short, or a situation that must occur never did.
 
 use super::{Answer, Choices, Depiction, Evidence, Verdict};
 use crate::engine::Tally;
 use crate::engine::states::Findings;
+use crate::plural::counted;
 
 impl Answer {
     /// The answer to a question without a start.
@@ -20,7 +21,11 @@ impl Answer {
         if found.states == 0 && found.is_whole {
             return Self::startless();
         }
-        Self::new(counterexample, found.is_whole, shown, found.states).covering(covers, &found.covered)
+        let answer = Self::new(counterexample, found.is_whole, shown, found.states);
+        if !found.is_whole && answer.verdict == Verdict::Open {
+            return Self { note: Some(cut_short(found.states)), ..answer };
+        }
+        answer.covering(covers, &found.covered)
     }
 
     /// This answer, which is open if it is no refutation and one of `covers` never occurred; the note says which.
@@ -48,4 +53,10 @@ impl Answer {
         let answer = Self::new(evidence, is_whole, shown, tally.cases);
         Self { given_up: tally.given_up, ..answer.covering(covers.iter().copied(), &tally.covered) }
     }
+}
+
+/// The words about a search over states that did not come to its end.
+pub fn cut_short(states: u64) -> String {
+    let states = counted(states, "state");
+    format!("cut short after {states}: bound the rule more closely, or give the search more memory or steps")
 }

@@ -61,13 +61,18 @@ pub struct Limits {
 /// Seconds that one step may take, unless somebody wants otherwise.
 pub const PATIENCE_S: u32 = 60;
 
+/// Bytes that searches over states may take together, unless somebody wants otherwise.
+pub const MEMORY_BYTES: u64 = 2 << 30;
+
 impl Default for Limits {
     fn default() -> Self {
-        Self { memory: Arc::new(MemoryLimit::unbounded()), patience_s: PATIENCE_S }
+        let memory = MemoryLimit::of(MEMORY_BYTES, rayon::current_num_threads() as u64);
+        Self { memory: Arc::new(memory), patience_s: PATIENCE_S }
     }
 }
 
-/// Decides all checks of `clauses`, on all cores.
+/// Decides all checks of `clauses`, on all cores, within [`Limits::default`]. A search over states that does not fit
+/// into that is cut short, and its check is open, with a note.
 ///
 /// # Errors
 /// [`MethodError`] if a method cannot begin.
