@@ -39,7 +39,7 @@ fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
     pair (eager), 2 robots, start 0,0: run.jsonl
     2 team moves: a clause was broken
     2 of 3 cells explored (66 %), 50 % at team move 1, 75 % never, 100 % never
-    PAIR-1 is broken in team move 2: the second stays apart
+    PAIR-1 is broken in team move 2; it demands: the second stays apart
     this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
     the file says that it is a counterexample to PAIR-1
 
@@ -50,7 +50,7 @@ fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
     | 1   0 |   |          | ·  01 x   |
     +---+---+---+          +---+---+---+
 
-    Team move 2 breaks PAIR-1: the second stays apart
+    Team move 2 breaks PAIR-1; it demands: the second stays apart
 
       Robot 0 at 1,0 tries to go east, meets a wall and stays.
       Robot 1 at 0,0 goes east to 1,0.

@@ -155,7 +155,7 @@ fn a_stored_run_says_who_looks_and_who_moves() {
     {"move":{"step":2,"kind":"advance","tried":"..","blocked":[],"cells":[[1,0],[0,0]],"title":"robot 1 looks"}}
     {"move":{"step":3,"kind":"advance","tried":".E","blocked":[],"cells":[[1,0],[1,0]],"title":"robot 1 moves"}}
     {"end":{"stopped":"violation","steps":3,"explored":2,"cells":0,"violations":[{"clause":"PATROL-1","step":3}]}}
-    Team move 3 breaks PATROL-1: no two robots are in one cell
+    Team move 3 breaks PATROL-1; it demands: no two robots are in one cell
 
       Robot 1 moves.
       Robot 0 at 1,0 stays.
@@ -178,7 +178,7 @@ fn a_stored_run_says_who_dies_and_what_comes_again() {
     {"move":{"step":1,"kind":"advance","tried":"..","blocked":[],"cells":[[1,0],[0,0]],"title":"robot 0 dies"}}
     {"move":{"step":2,"kind":"advance","tried":"..","blocked":[],"cells":[[1,0],[0,0]],"title":"robot 1 acts","again":true}}
     {"end":{"stopped":"endless","steps":2,"explored":2,"cells":0,"violations":[{"clause":"PATROL-2","step":2}]}}
-    Team move 2 comes again and again. Such a run breaks PATROL-2: robot 1 comes to the south east
+    Team move 2 comes again and again. Such a run breaks PATROL-2; it demands: robot 1 comes to the south east
 
     +---+---+
     | 1   0 |
@@ -198,7 +198,7 @@ fn a_stored_run_says_which_message_is_lost() {
     {"move":{"step":3,"kind":"advance","tried":"..","blocked":[],"cells":[[0,1],[0,0]]}}
     {"move":{"step":4,"kind":"advance","tried":"..","blocked":[],"cells":[[0,1],[0,0]],"again":true}}
     {"end":{"stopped":"endless","steps":4,"explored":4,"cells":0,"violations":[{"clause":"PATROL-2","step":4}]}}
-    Team move 4 comes again and again. Such a run breaks PATROL-2: robot 1 comes to the south east
+    Team move 4 comes again and again. Such a run breaks PATROL-2; it demands: robot 1 comes to the south east
 
     +---+---+
     | 1   · |

@@ -14,9 +14,10 @@ use super::{Pose, agents, first_drawn, legend, outcome, team_move};
 use crate::explore::{ClauseId, Look, OnViolation, Play, Report, StopReason, Survey, TeamMove, Violation};
 use tautline_grids::layout::Layout;
 
-/// The id of a clause, with its sentence where `run` knows it.
+/// The id of a clause, with its sentence where `run` knows it. That of one's own says what is so where it is kept.
 fn with_sentence(run: &dyn Play, id: ClauseId) -> String {
-    run.sentence(id).map_or_else(|| format!("{id}."), |sentence| format!("{id}: {sentence}"))
+    let says = if matches!(run.setup().scheme.look, Look::Own) { "; it demands:" } else { ":" };
+    run.sentence(id).map_or_else(|| format!("{id}."), |sentence| format!("{id}{says} {sentence}"))
 }
 
 /// The words that begin the story of a run whose end breaks `clause` after team move number `step`.
@@ -190,8 +191,7 @@ pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
     };
     // An end that misses no cell is drawn as it is.
     let (what, cells) = run.missed(clause, &report.chart).unwrap_or_default();
-    let head = end_breaks(run, &report, step, clause);
-    let mut story = unexplored(run, &report, &head, what, &cells);
+    let mut story = unexplored(run, &report, &end_breaks(run, &report, step, clause), what, &cells);
     run.play(&mut |made| {
         if made.step == report.steps && made.broken.contains(&clause) {
             story = of(run, &report.chart, made);

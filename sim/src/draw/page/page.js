@@ -882,12 +882,15 @@ function element(name, text, attributes = {}) {
 
 const MOST_TOLD = 12;
 
+/** The sentence of a clause that is broken. That of a rule of one's own, whose robots count from 0, says what is so where it is kept. */
+const demanded = clause => film.clauses[clause] && (film.numbered_from === undefined ? "" : "It demands: ") + film.clauses[clause];
+
 /** Which clauses a line breaks, and how. */
 function explain(i, line) {
   const here = broken.filter(one => one.i === i);
   const said = here.map(({ clause, told, atEnd }) => {
     const p = element("p");
-    p.append(element("b", `${capital(atEnd || `${film.unit} ${film.first + i}`)} breaks ${clause}. `), [film.clauses[clause], ...told].filter(text => text).join(" "));
+    p.append(element("b", `${capital(atEnd || `${film.unit} ${film.first + i}`)} breaks ${clause}. `), [demanded(clause), ...told].filter(text => text).join(" "));
     return p;
   });
   if (inCells && here.some(one => !one.atEnd) && i > 0) {
@@ -1132,7 +1135,7 @@ function follow(robot) {
 
 function fillIn() {
   find("outcome").textContent = film.outcome;
-  for (const [clause, sentence] of Object.entries(film.clauses)) if (sentence) find("outcome").after(element("p", `${clause}: ${sentence}`));
+  for (const clause in film.clauses) if (film.clauses[clause]) find("outcome").after(element("p", `${clause}: ${demanded(clause)}`));
   find("at").setAttribute("aria-label", film.unit);
   find("axis").options[0].textContent = `${film.unit}s`;
   find("axis-label").hidden = !isTimed;
