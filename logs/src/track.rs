@@ -77,6 +77,8 @@ impl Tracks {
         let mut refused = Refusals::default();
         let mut robots = vec![Vec::new(); numbers.names().len()];
         let mut latest: HashMap<u32, i64> = HashMap::new();
+        // The positions at its latest stamp in whose place another one of the robot stands.
+        let mut replaced: HashMap<u32, Vec<Sample>> = HashMap::new();
         let mut contradictions = BTreeMap::new();
         let mut now: Option<i64> = None;
         for (place, sample) in log.samples.iter().enumerate() {
@@ -106,15 +108,20 @@ impl Tracks {
                 count(&mut refused.contradicted, sample.place);
                 continue;
             }
-            // Of several positions with one stamp the last counts, and none if they differ by more than the tolerance.
+            let before = replaced.entry(robot).or_default();
+            before.retain(|known| known.at_us == sample.at_us);
+            let is_far_from = |known: &Sample| !is_within(known, &sample, limits.tolerance_mm);
+            // Of several positions with one stamp the last counts, and none if any two of them differ by more than the
+            // tolerance.
             match track.pop_if(|last| last.at_us == sample.at_us) {
-                Some(last) if !is_within(&last, &sample, limits.tolerance_mm) => {
+                Some(last) if is_far_from(&last) || before.iter().any(is_far_from) => {
                     count(&mut refused.contradicted, last.place);
                     count(&mut refused.contradicted, sample.place);
                     contradictions.insert((robot, sample.at_us), sample.place);
                 }
                 Some(last) if (last.x_mm, last.y_mm) != (sample.x_mm, sample.y_mm) => {
                     count(&mut refused.replaced, last.place);
+                    before.push(last);
                     track.push(sample);
                 }
                 Some(_) | None => track.push(sample),

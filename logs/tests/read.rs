@@ -175,6 +175,13 @@ fn late_and_far_stamps_are_not_taken() {
         [500_000, 1_000_000, 1_100_000].map(|at_us| tracks.at(0, at_us)),
         [Some([0.0, 0.0]), None, None]
     );
+    // Each is within the tolerance of the next, and the first is not of the last.
+    let creeping =
+        read(b"t,robot,x,y\n0,a,0,0\n1,a,1,0\n1,a,1.04,0\n1,a,1.08,0\n2,a,1.08,0\n").expect("a log");
+    let tracks = Tracks::new(&creeping, &Numbers::natural(&creeping.names), &LIMITS);
+    assert_eq!((tracks.refused().replaced, tracks.refused().contradicted), (Some((1, 3)), Some((2, 4))));
+    assert_eq!(tracks.contradictions().collect::<Vec<_>>(), [(0, 1_000_000, 5)]);
+    assert_eq!(tracks.at(0, 1_000_000), None);
     // A log that pauses goes on; a first stamp far off is not the log's.
     let pause = read(b"t,robot,x,y\n7,a,0,0\n1e6,a,0,0\n1000001,a,1,0\n").expect("a log");
     let tracks = Tracks::new(&pause, &Numbers::natural(&pause.names), &LIMITS);
