@@ -8,7 +8,7 @@ use tautline_kernel::chain::Rule;
 use tautline_kernel::ground::{Area, Cell, Circle, Step};
 use tautline_proofs::chain::optimum::{Guide, explore_all};
 use tautline_proofs::chain::reach::Ground;
-use tautline_proofs::engine::smallest::areas;
+use tautline_proofs::engine::smallest::areas_of;
 
 /// A team in an open area.
 struct Team {

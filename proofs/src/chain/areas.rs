@@ -12,7 +12,7 @@ use super::bounds::{Bounds, Counterexample};
 use super::invariant::Invariant;
 use super::search::{Findings as OfOne, Search, Unsearchable, search as search_one};
 use super::subject::Subject;
-use crate::engine::smallest::{Certificate, Class, ClassFindings, Most, areas, smallest};
+use crate::engine::smallest::{Certificate, Class, ClassFindings, Most, areas_of, smallest};
 use crate::engine::tree::Watch;
 
 /// Areas to search, and for what.
@@ -123,7 +123,7 @@ impl Findings {
 
 /// Edges of the area with most of them that has at most so many cells.
 pub fn most_edges(max_cells: u32) -> u32 {
-    (1..=max_cells).flat_map(areas).map(|area| area.edges().count() as u32).max().unwrap_or(0)
+    (1..=max_cells).flat_map(areas_of).map(|area| area.edges().count() as u32).max().unwrap_or(0)
 }
 
 /// Searches all areas. The result is the same on any number of threads, unless `watch` ends the search.
@@ -141,7 +141,7 @@ pub fn search(
         if left.is_empty() {
             break;
         }
-        for area in areas(cells) {
+        for area in areas_of(cells) {
             if !all.search(area, &left, &mut found, watch)? {
                 return Ok(found);
             }
@@ -150,6 +150,19 @@ pub fn search(
     }
     found.is_complete = found.given_up == 0;
     Ok(found)
+}
+
+/// The bounds of a search in `area` for each of its cells as the base. What the team cannot get to plays no part: where
+/// it does not get everywhere, the area that it reaches was searched before, for it has fewer cells.
+fn in_each_cell(
+    observed: Subject,
+    robots: usize,
+    (area, walls): (Area, u32),
+) -> Result<Vec<Bounds>, Unsearchable> {
+    let of = |base| Bounds { area, base, ..Bounds::new(observed, robots, walls) };
+    let reached = area.cells().map(of).map(|bounds| Ok((bounds.reach()?, bounds)));
+    let reached = reached.collect::<Result<Vec<_>, Unsearchable>>()?;
+    Ok(reached.into_iter().filter(|(reach, _)| *reach == area).map(|(_, bounds)| bounds).collect())
 }
 
 impl Areas {
@@ -164,13 +177,7 @@ impl Areas {
         let walls = self.max_walls.min(area.edges().count() as u32);
         let (columns, rows) = (area.width() as i16, area.height() as i16);
         let place = found.searched.len();
-        for base in area.cells() {
-            let bounds = Bounds { area, base, ..Bounds::new(self.observed, self.robots, walls) };
-            // What the team cannot get to plays no part: the area that it reaches was searched before, for it has fewer
-            // cells.
-            if bounds.reach()? != area {
-                continue;
-            }
+        for bounds in in_each_cell(self.observed, self.robots, (area, walls))? {
             if found.searched.len() == place {
                 found.searched.push(AreaSearch { columns, rows, bases: 0, walls, runs: 0, moves: 0 });
             }
@@ -226,10 +233,9 @@ pub fn smallest_run(
     smallest(most, |Class { area, barriers, robots }, until| {
         let walls = barriers.min(area.edges().count() as u32);
         let mut all = ClassFindings::default();
-        for base in area.cells() {
-            let bounds = Bounds { area, base, until, ..Bounds::new(observed, robots, walls) };
-            let bounds = Bounds { invariants: vec![invariant], ..bounds };
-            if bounds.reach()? != area || !bounds.starts().all(|start| area.contains(start)) {
+        for bounds in in_each_cell(observed, robots, (area, walls))? {
+            let bounds = Bounds { invariants: vec![invariant], until, ..bounds };
+            if !bounds.starts().all(|start| area.contains(start)) {
                 continue;
             }
             let OfOne { runs, complete, counterexamples, given_up, .. } = search_one(&bounds, watch)?;

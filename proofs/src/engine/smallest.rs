@@ -13,7 +13,7 @@ use super::Until;
 use crate::plural::counted;
 
 /// Columns and rows of all areas with so many cells, the flattest first.
-pub fn areas(cells: u32) -> impl Iterator<Item = Area> {
+pub fn areas_of(cells: u32) -> impl Iterator<Item = Area> {
     let sizes = (1..=cells).filter(move |rows| cells.is_multiple_of(*rows));
     sizes.filter_map(move |rows| {
         let (columns, rows) = (i16::try_from(cells / rows).ok()?, i16::try_from(rows).ok()?);
@@ -118,7 +118,7 @@ pub fn smallest<F, E>(
     mut search: impl FnMut(Class, Until) -> Result<ClassFindings<F>, E>,
 ) -> Result<Certificate<Class, F>, E> {
     let mut made = Certificate::default();
-    let level = |cells, barriers, robots| areas(cells).map(move |area| Class { area, barriers, robots });
+    let level = |cells, barriers, robots| areas_of(cells).map(move |area| Class { area, barriers, robots });
     for cells in 1..=most.cells {
         // As long as there is none in these cells at all, barriers and robots need no order.
         let mut all = Certificate::default();
