@@ -26,7 +26,7 @@ use super::value_parser::{self, SizeArg};
 use super::{interrupt, progress};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{
-    CoveredBound, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize,
+    CoveredBound, Exhibit, Facts, Far, Finding, HuntBounds, HuntReport, HuntRequest, Hunter, RunSize,
 };
 use tautline_sim::explore::{RuleId, Scheme, Senses};
 use tautline_sim::shards::{deal_hunt, hunt_part, hunted};
@@ -138,6 +138,8 @@ pub(super) struct HuntJson<'a> {
     scheme: Scheme,
     rule: RuleId,
     robots: u64,
+    /// The clauses that were looked for: one that is not among them may be broken all the same.
+    looked_for: &'a [&'static str],
     #[serde(flatten)]
     facts: &'a Facts,
     complete: bool,
@@ -248,16 +250,18 @@ impl Hunt {
         HuntRequest {
             scheme: self.scheme,
             rule: self.rule(),
-            robots: self.robots,
-            size: self.size.map(|SizeArg(size)| size),
+            bounds: HuntBounds {
+                robots: self.robots,
+                size: self.size.map(|SizeArg(size)| size),
+                max_walls: self.max_walls,
+                max_cells: self.max_cells,
+                max_misses: self.max_misses,
+                max_losses: self.max_losses,
+                error_cells: self.error,
+                range_cells: self.range,
+                equal_speeds: false,
+            },
             budget: self.budget,
-            max_walls: self.max_walls,
-            max_cells: self.max_cells,
-            max_misses: self.max_misses,
-            max_losses: self.max_losses,
-            error_cells: self.error,
-            range_cells: self.range,
-            equal_speeds: false,
             resume: self.resume.as_deref(),
         }
     }
@@ -324,6 +328,7 @@ impl Answer<'_> {
             scheme: asked.scheme,
             rule: asked.rule,
             robots: hunted.robots,
+            looked_for: &hunted.looked_for,
             facts: &hunted.facts,
             complete: hunted.is_complete,
             done: hunted.done,

@@ -23,7 +23,7 @@ use crate::atomic_file::{AtomicFile, Foreign, Occupant, Replaceable, lock};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::json_lines::{self, MAX_FILE_BYTES, Magic, key_of, line_of, value_of};
 
-/// The version of every such file.
+/// The version of every such file that has none of its own.
 pub const VERSION: u32 = 1;
 
 /// How often work on its way is kept.
@@ -86,6 +86,8 @@ pub fn decode<'a, T: Deserialize<'a>>(value: &'a RawValue, remedy: &str) -> Resu
 pub trait Task: Serialize + DeserializeOwned {
     /// Its field `format`.
     const FORMAT: &'static str;
+    /// Its field `version`.
+    const VERSION: u32 = VERSION;
     /// The noun for such a file.
     const NOUN: &'static str;
     /// The fault of a file of another task.
@@ -146,7 +148,7 @@ impl<T: Task> Lines<T> {
             return Err(whole(format!("{} has three lines, and this file {}", T::NOUN, lines.len())));
         };
         let magic: Magic = parse::<T, _>(path, 1, first)?;
-        if let Some((field, what)) = magic.differs(T::FORMAT, VERSION) {
+        if let Some((field, what)) = magic.differs(T::FORMAT, T::VERSION) {
             let remedy = if field == "format" { T::OTHER_FORMAT } else { T::AGAIN };
             return Err(in_header(path, first, field, what, remedy));
         }

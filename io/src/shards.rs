@@ -57,6 +57,7 @@ struct PlanTask {
 
 impl Task for PlanTask {
     const FORMAT: &'static str = "tautline plan";
+    const VERSION: u32 = 2;
     const NOUN: &'static str = "a plan";
     const OTHER: &'static str = "this is another plan";
     const FIELDS: &'static [&'static str] = &["of", "shards", "program"];
@@ -163,7 +164,7 @@ impl Plan {
     ) -> Result<AtomicFile, Diagnostic> {
         let task = PlanTask {
             format: PlanTask::FORMAT.to_owned(),
-            version: checkpoint::VERSION,
+            version: PlanTask::VERSION,
             of,
             shards,
             program: program()?,

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use serde::Serialize;
 use tautline_grids::layout::{MAX_SIDE_CELLS, Size};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_sim::explore::hunt::{Exhibit, Far, Finding, HuntRequest, Hunter};
+use tautline_sim::explore::hunt::{Exhibit, Far, Finding, HuntBounds, HuntRequest, Hunter};
 
 use crate::arguments::Int;
 use crate::diagnostic::raised;
@@ -110,16 +110,18 @@ pub(crate) fn hunt(
     let asked = HuntRequest {
         scheme,
         rule,
-        robots: self::robots(py, scheme, robots)?,
-        size: size.transpose()?,
+        bounds: HuntBounds {
+            robots: self::robots(py, scheme, robots)?,
+            size: size.transpose()?,
+            max_walls: Int::optional(max_walls, py, "max_walls", 0..=u32::MAX)?,
+            max_cells: Int::optional(max_cells, py, "max_cells", 0..=u32::MAX)?,
+            max_misses: Int::optional(max_misses, py, "max_misses", 0..=u8::MAX)?,
+            max_losses: Int::optional(max_losses, py, "max_losses", 0..=u8::MAX)?,
+            error_cells: error,
+            range_cells: Int::optional(message_range, py, "message_range", 0..=u16::MAX)?,
+            equal_speeds: false,
+        },
         budget: Int::optional(budget, py, "budget", 0..=u64::MAX)?,
-        max_walls: Int::optional(max_walls, py, "max_walls", 0..=u32::MAX)?,
-        max_cells: Int::optional(max_cells, py, "max_cells", 0..=u32::MAX)?,
-        max_misses: Int::optional(max_misses, py, "max_misses", 0..=u8::MAX)?,
-        max_losses: Int::optional(max_losses, py, "max_losses", 0..=u8::MAX)?,
-        error_cells: error,
-        range_cells: Int::optional(message_range, py, "message_range", 0..=u16::MAX)?,
-        equal_speeds: false,
         resume: None,
     };
     let found = wait_for(py, |is_stopped| {

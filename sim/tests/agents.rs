@@ -21,7 +21,7 @@ use tautline_sim::explore::agents::{Agents, PREMATURE};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
-use tautline_sim::explore::hunt::{Exhibit, HuntReport, HuntRequest};
+use tautline_sim::explore::hunt::{Exhibit, HuntBounds, HuntReport, HuntRequest};
 use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, StopReason, explore, team};
 
 /// More team moves than any run here has.
@@ -268,12 +268,13 @@ fn no_layout_has_more_cells_than_there_are_labels_or_depths() {
 }
 
 fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> HuntReport {
-    let asked = HuntRequest {
+    let bounds = HuntBounds {
         robots: Some(robots),
         size: Some(Size::new(side, side).expect("a size")),
         max_misses: Some(max_misses),
-        ..HuntRequest::new(scheme, rule)
+        ..HuntBounds::default()
     };
+    let asked = HuntRequest { bounds, ..HuntRequest::new(scheme, rule) };
     let rule = scheme.rules.iter().find(|row| row.name == rule).expect("a rule");
     rule.hunt.expect("a hunt").hunt(&asked, &mut NoWatcher).expect("it can be searched")
 }
@@ -292,6 +293,7 @@ fn hunts_of_trees_find_the_smallest_early_end_and_it_is_a_run() {
         assert!(report.violations.iter().any(|violation| violation.clause == PREMATURE), "{report:?}");
     }
     let careful = hunted(&HELPERS, RuleId::REPAIRED, (1, 1), 3);
+    assert_eq!(careful.looked_for, ["BRICKS-4", "BRICKS-5"]);
     assert!(careful.is_complete && careful.found.is_empty(), "{careful:?}");
 }
 
@@ -356,4 +358,35 @@ fn of_turns_that_can_go_on_for_ever_only_those_are_drawn() {
     |░?░  #### ####|   |░░░ ### ###|      |░░░ ### ###|
     +----+----+----+   +---+---+---+      +---+---+---+
     ");
+}
+
+#[test]
+fn what_agents_leave_unexplored_or_unvisited_for_ever_is_judged() {
+    let (mut judged, mut several) = (BTreeSet::new(), 0);
+    for seed in 0..60 {
+        let mut layout = generated(["walls:7x5:0.2", "cells:5x4:0.2"][seed as usize % 2], seed);
+        let base = Setup::choose_base(&mut layout, None).expect("a base");
+        let robots = 1 + seed as u16 % 3;
+        let setup = Setup::new(&BRICKS, RuleId::PUBLISHED, robots, layout, base);
+        let mut frames = Vec::new();
+        let report = explore(&setup, &mut |made| {
+            frames.push(made.frame.clone());
+            Ok(())
+        });
+        for broken in report.expect("a run").violations {
+            let clause = broken.clause;
+            assert!((setup.scheme.case)(&setup, clause, &[]).is_some(), "its team moves are kept: {setup:?}");
+            let Some(case) = (setup.scheme.case)(&setup, clause, &frames) else {
+                assert_eq!(clause, PREMATURE, "{setup:?}");
+                continue;
+            };
+            assert_eq!(case.judge(), Ok(()), "{clause}: {setup:?}");
+            judged.insert(clause.as_str());
+            several += usize::from(robots > 1);
+        }
+    }
+    assert!(
+        judged.contains("BRICKS-5") && judged.contains("BRICKS-6") && several > 0,
+        "{judged:?}, {several}"
+    );
 }

@@ -9,7 +9,7 @@ use tautline_kernel::frontier::{Condition, Rule};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::frontier::FRONTIER;
-use tautline_sim::explore::hunt::{HuntReport, HuntRequest};
+use tautline_sim::explore::hunt::{HuntBounds, HuntReport, HuntRequest};
 use tautline_sim::explore::{Change, RuleId, Scene, Setup, StopReason, explore, has_double};
 use tautline_sim::frontier::{Allowance, AssignedTeam, Assignment, Explorers, TeamEnd};
 use tautline_sim::objects::Objects;
@@ -21,12 +21,13 @@ fn asked(
     (width, height): (u64, u64),
     max_losses: u8,
 ) -> HuntRequest<'static> {
-    HuntRequest {
+    let bounds = HuntBounds {
         robots: Some(robots),
         size: Some(Size::new(width, height).expect("a size")),
         max_losses: Some(max_losses).filter(|&losses| losses > 0),
-        ..HuntRequest::new(&FRONTIER, RuleId::new(rule))
-    }
+        ..HuntBounds::default()
+    };
+    HuntRequest { bounds, ..HuntRequest::new(&FRONTIER, RuleId::new(rule)) }
 }
 
 fn hunted(rule: &'static str, robots: u64, size: (u64, u64), max_losses: u8) -> HuntReport {
@@ -91,7 +92,7 @@ fn clean_runs(rule: Rule, options: &Options, runs: u64) -> usize {
         loop {
             match team.advance() {
                 Err(ended) => return ended == TeamEnd::Known,
-                Ok(_) if team.faults().0 || has_double(team.cells()) => return false,
+                Ok(_) if team.has_false_note() || has_double(team.cells()) => return false,
                 Ok(_) => {}
             }
         }
@@ -241,9 +242,29 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(wrong(together), refused("starts", "two robots start in the cell 0,0"));
 }
 
+/// By two robots of the published rule FRONTIER-2 and FRONTIER-13 are broken, too.
+#[test]
+fn what_a_hunt_finds_and_looks_for_is_in_the_order_of_the_numbers() {
+    let report = hunted("published", 2, (4, 1), 0);
+    let all = ["FRONTIER-1", "FRONTIER-2", "FRONTIER-3", "FRONTIER-4", "FRONTIER-5", "FRONTIER-13"];
+    assert_eq!(
+        (&report.looked_for[..], &hunted("greedy", 2, (2, 1), 0).looked_for[..]),
+        (&all[..], &all[..])
+    );
+    let found: Vec<&str> = report.found.iter().map(|finding| finding.clause).collect();
+    let in_order: Vec<&str> = all.into_iter().filter(|clause| found.contains(clause)).collect();
+    assert!(
+        found == in_order && found.contains(&"FRONTIER-2") && found.contains(&"FRONTIER-13"),
+        "{found:?}"
+    );
+}
+
 #[test]
 fn an_error_below_zero_is_none() {
-    let off = |error_cells| HuntRequest { error_cells, ..asked("repaired", 1, (2, 1), 0) };
+    let off = |error_cells| {
+        let asked = asked("repaired", 1, (2, 1), 0);
+        HuntRequest { bounds: HuntBounds { error_cells, ..asked.bounds }, ..asked }
+    };
     let hunt = FRONTIER.rule(off(None).rule).and_then(|rule| rule.hunt).expect("it is hunted");
     for error in [-1.0, -0.5, -0.01, 0.3, 2.0, f64::NAN] {
         let refused = hunt.hunt(&off(Some(error)), &mut NoWatcher).map(|_| ()).expect_err("no error");
@@ -257,7 +278,7 @@ fn an_error_below_zero_is_none() {
 fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
     let refused = |rule: &'static str, robots: u64| {
         let rule = RuleId::new(rule);
-        let asked = HuntRequest { rule, robots: Some(robots), ..asked("repaired", 1, (3, 3), 0) };
+        let asked = HuntRequest { rule, ..asked("repaired", robots, (3, 3), 0) };
         let hunt = FRONTIER.rule(rule).and_then(|rule| rule.hunt).expect("it is hunted");
         hunt.hunt(&asked, &mut NoWatcher).expect_err("no hunt").to_string()
     };

@@ -11,7 +11,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::{minimise::minimise, refutation};
-use tautline_sim::explore::hunt::{Finding, HuntReport, HuntRequest, RunSize};
+use tautline_sim::explore::hunt::{Finding, HuntBounds, HuntReport, HuntRequest, RunSize};
 use tautline_sim::explore::kit::{AHEAD, APART, CONNECTED, CONTACT, ENDS, KIT};
 use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, StopReason, explore};
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
@@ -230,12 +230,13 @@ fn teams_without_room_or_contact_say_so() {
 }
 
 fn asked(rule: impl Into<RuleId>, robots: u64, (columns, rows): (u64, u64)) -> HuntRequest<'static> {
-    HuntRequest {
+    let bounds = HuntBounds {
         robots: Some(robots),
         size: Some(Size::new(columns, rows).expect("a size")),
         max_walls: Some(2),
-        ..HuntRequest::new(&KIT, rule.into())
-    }
+        ..HuntBounds::default()
+    };
+    HuntRequest { bounds, ..HuntRequest::new(&KIT, rule.into()) }
 }
 
 fn hunted(asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic> {
@@ -313,6 +314,8 @@ fn a_hunt_ends_at_its_budget_and_says_so() {
     let hunted =
         hunted(&HuntRequest { budget: Some(100), ..asked(RuleName::Repaired, 2, (4, 2)) }).expect("a hunt");
     assert!(!hunted.is_complete && hunted.found.is_empty());
+    let clauses = ["KIT-1", "KIT-2", "KIT-3", "KIT-6", "KIT-7", "KIT-8", "KIT-10", "KIT-11", "KIT-14"];
+    assert_eq!(hunted.looked_for, clauses);
 }
 
 #[test]
@@ -331,7 +334,8 @@ fn hunts_that_cannot_be_made_say_why() {
         let large = wrong(asked(RuleName::Repaired, 2, size));
         assert!(large.contains("too many to search"), "{large}");
     }
-    let lost = wrong(HuntRequest { max_losses: Some(1), ..asked(RuleName::Repaired, 2, (2, 1)) });
+    let asked = asked(RuleName::Repaired, 2, (2, 1));
+    let lost = wrong(HuntRequest { bounds: HuntBounds { max_losses: Some(1), ..asked.bounds }, ..asked });
     assert!(lost.contains("`max-losses` does not bound this hunt"), "{lost}");
 }
 

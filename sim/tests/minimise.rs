@@ -14,6 +14,7 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refusal, minimise};
+use tautline_sim::explore::bricks::BRICKS;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::judge_input::judge_input;
 use tautline_sim::explore::kit::KIT;
@@ -358,4 +359,36 @@ fn runs_on_published_maps_shrink_if_they_are_there() {
         println!("{map}: {:?} to {:?}", minimal.before, minimal.after);
         check(&minimal);
     }
+}
+
+/// Whether a run of agents breaks a clause.
+fn is_broken(setup: &Setup, clause: ClauseId) -> bool {
+    let report = explore(setup, &mut |_| Ok(())).expect("a run");
+    report.violations.iter().any(|broken| broken.clause == clause)
+}
+
+#[test]
+fn no_sensor_that_chance_has_missed_can_go_from_a_minimal_run() {
+    let (mut found, mut missed) = (0, 0);
+    for seed in 0..40 {
+        let mut layout = generated("cells:6x5:0.2", seed);
+        let base = Setup::choose_base(&mut layout, None).expect("a base");
+        let miss = "0.2".parse().expect("a probability");
+        let limits = Limits { max_moves: NonZeroU32::new(400), ..Limits::stopping_at(None) };
+        let setup = Setup { miss, seed, limits, ..Setup::new(&BRICKS, RuleId::PUBLISHED, 2, layout, base) };
+        let Some(minimal) = minimal(&setup, None) else { continue };
+        let Minimal { setup, clause, before, after, .. } = minimal;
+        assert!(setup.miss.is_never() && is_broken(&setup, clause), "{setup:?}");
+        assert!(after.missed == setup.missed.len() && after.missed <= before.missed, "{setup:?}");
+        for left_out in 0..setup.missed.len() {
+            let mut fewer = setup.clone();
+            fewer.missed.remove(left_out);
+            assert!(!is_broken(&fewer, clause), "{left_out} can go: {setup:?}");
+        }
+        let again = minimise(&setup, Some(clause), &mut |_| Ok(())).expect("it is broken");
+        assert_eq!((again.setup.missed, again.after), (setup.missed, after));
+        found += 1;
+        missed += before.missed - after.missed;
+    }
+    assert!(found > 10 && missed > found, "{found} runs, {missed} misses have gone");
 }

@@ -98,6 +98,7 @@ fn agents_that_go_round_for_ever_are_stored_up_to_where_they_are_as_before() {
     says(&told, &["BRICKS-5, 0 missed, 5x3 cells", "After team move 23 all is as it was before", "the end"]);
     let replayed = printed(folder, &["replay", "bricks-5-published-n1.jsonl"], 1);
     says(&replayed, &["23 team moves: the team is where it was", "BRICKS-5 is broken in team move 23"]);
+    says(&replayed, &["the judge accepts it as a counterexample to BRICKS-5"]);
 }
 
 #[test]

@@ -268,7 +268,7 @@ fn wrong_plans_and_shards() {
     let plan = read(folder, "plan.json");
     // What is not the same in every build is not shown.
     write(folder, "foreign.json", of_another_build(&plan));
-    let old = plan.replace("\"version\":1", "\"version\":0");
+    let old = plan.replace("\"version\":2", "\"version\":1");
     write(folder, "old.json", sealed(&old));
     write(folder, "damaged.json", plan.replace("\"answers\":[0", "\"answers\":[1"));
     // How the sum is drawn depends on its digits, and it is another one for each build.

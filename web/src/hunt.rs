@@ -9,10 +9,10 @@ use serde_json::{Value, json};
 use tautline_grids::layout::Size;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::plural::counted;
-use tautline_sim::explore::Scheme;
 use tautline_sim::explore::hunt::{
     Bound, Exhibit, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, OngoingHunt,
 };
+use tautline_sim::explore::{Scheme, hunt};
 
 use crate::by_hand::{self, HuntFindings, Order, Search};
 use crate::clauses::sentence;
@@ -197,8 +197,10 @@ impl RowHunt {
         let HuntBounds { robots, size, max_walls, max_misses, max_losses, error } = self.bounds;
         let size = size.map(|[columns, rows]| Size::new(columns, rows)).transpose()?;
         let rule = self.settings.rule()?.name;
-        let asked = HuntRequest { range_cells: self.range_cells()?, ..HuntRequest::new(self.scheme, rule) };
-        Ok(HuntRequest { robots, size, max_walls, max_misses, max_losses, error_cells: error, ..asked })
+        let (error_cells, range_cells, others) = (error, self.range_cells()?, hunt::HuntBounds::default());
+        let others = hunt::HuntBounds { error_cells, range_cells, ..others };
+        let bounds = hunt::HuntBounds { robots, size, max_walls, max_misses, max_losses, ..others };
+        Ok(HuntRequest { bounds, ..HuntRequest::new(self.scheme, rule) })
     }
 
     fn range_cells(&self) -> Result<Option<u16>, Diagnostic> {

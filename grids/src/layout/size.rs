@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Cell};
 
@@ -11,10 +12,25 @@ pub const MAX_SIDE_CELLS: u64 = 32_000;
 pub const MAX_CELLS: u64 = 1 << 24;
 
 /// Columns and rows, both at least 1.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(try_from = "(u64, u64)", into = "(i16, i16)")]
 pub struct Size {
     width: i16,
     height: i16,
+}
+
+impl TryFrom<(u64, u64)> for Size {
+    type Error = Diagnostic;
+
+    fn try_from((width, height): (u64, u64)) -> Result<Self, Diagnostic> {
+        Self::new(width, height)
+    }
+}
+
+impl From<Size> for (i16, i16) {
+    fn from(Size { width, height }: Size) -> Self {
+        (width, height)
+    }
 }
 
 impl Size {
@@ -50,6 +66,14 @@ impl Size {
     pub fn area(self) -> Area {
         let first = Cell::new(0, 0);
         Area::new(first, Cell::new(self.width - 1, self.height - 1)).unwrap_or(Area::of(first))
+    }
+
+    /// Columns and rows of all areas up to this size, fewest cells first.
+    pub fn areas(self) -> Vec<(i16, i16)> {
+        let all = (1..=self.height).flat_map(|height| (1..=self.width).map(move |width| (width, height)));
+        let mut areas: Vec<(i16, i16)> = all.collect();
+        areas.sort_by_key(|&(width, height)| (width * height, height));
+        areas
     }
 
     /// Whether `cell` is one of them.

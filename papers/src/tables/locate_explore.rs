@@ -310,7 +310,7 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
         for off in team.errors() {
             (squares, count) = (squares + off * off, count + 1);
         }
-        is_clean &= !team.faults().0 && !has_double(team.cells());
+        is_clean &= !team.has_false_note() && !has_double(team.cells());
         for ((object, known), off) in team.objects().iter().zip(&mut printed) {
             if known.is_some() && off.is_none() {
                 let robot = team.cells().iter().position(|&cell| cell == cell_at(*object));

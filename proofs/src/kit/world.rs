@@ -42,6 +42,20 @@ pub enum Demand {
 }
 
 impl Demand {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Contact,
+        Self::AtNodes,
+        Self::Apart,
+        Self::Moves,
+        Self::Ends,
+        Self::Covers,
+        Self::Marks,
+        Self::Shortens,
+        Self::AnyShortest,
+        Self::Whole,
+    ];
+
     /// The clause that so many robots break with it.
     pub const fn clause(self, robots: usize) -> &'static str {
         match self {
@@ -266,6 +280,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let found = self.findings(&map);
         // A robot comes to no path but those that are left over, and whether one is takes less time to find.
         found.is_left_over(ends) && found.distance(ends, u8::MAX).is_some()
+    }
+
+    /// The demands that are looked at.
+    pub fn demands(&self) -> impl Iterator<Item = Demand> {
+        Demand::ALL.into_iter().filter(|&demand| self.is_wanted(demand))
     }
 
     /// Whether this is looked at, and promised to so many robots that start so.

@@ -12,7 +12,9 @@
 //! - *A row*: likewise, south for east and north for west.
 //! - *A blocked cell*: it is free then. Walls beside it stay.
 //! - *A wall* inside the rim.
-//! - *A missed sensor*, of those that are named by their numbers.
+//! - *A missed sensor*: one that is named by its number, or that chance has drawn before the clause was broken. No
+//!   other one is missed then; if that does not break the clause, as where agents go on since one may still be missed,
+//!   what is drawn stays left to chance.
 //!
 //! A start of a robot's own goes with the column or row in which it is, as the base does, and with its robot.
 //!
@@ -35,7 +37,8 @@ use tautline_io::diagnostic::Halt;
 use self::minimal::first_violation;
 pub use self::minimal::{Failure, Minimal, Refusal};
 pub use self::shrink::{Breaks, BrokenClause, Case, Extent, Obstacles, Progress, Shrinkage, shrink};
-use crate::explore::{ClauseId, Limits, OnViolation, Setup, TeamMove, Violation, explore, run, team};
+use crate::explore::{ClauseId, Limits, OnViolation, Report, Setup, TeamMove, Violation, explore, run, team};
+use tautline_grids::chance::Probability;
 use tautline_grids::layout::Layout;
 
 /// The minimal run that the run of `setup` shrinks to; what stays broken is `asked`, or else what the run breaks first.
@@ -55,24 +58,28 @@ pub fn minimise(
     let starts =
         |robots, layout: &Layout, base| setup.scheme.default_starts(setup.rule, layout, base, robots);
     let is_default = setup.starts == starts(setup.robots, &setup.layout, setup.base);
-    let case = Case {
-        robots: setup.robots,
-        layout: setup.layout.clone(),
-        base: setup.base,
-        starts: setup.starts.clone().filter(|_| !is_default).unwrap_or_default(),
-        missed: setup.missed.clone(),
-    };
-    let mut before = Extent::new(&case, 0);
+    let extent = |setup: &Setup, steps| Extent::new(setup.robots, &setup.layout, setup.missed.len(), steps);
+    let smallest = extent(setup, 0);
     let violation = match (setup.limits.violation, asked) {
         (OnViolation::GoOn, Some(asked)) => OnViolation::StopAt(asked),
         (OnViolation::GoOn, None) => OnViolation::Stop,
         (stop @ (OnViolation::Stop | OnViolation::StopAt(_)), _) => stop,
     };
     let first = Setup { limits: Limits { violation, ..setup.limits }, ..setup.clone() };
-    let report = explore(&first, &mut |_| watch(Progress { runs: 0, smallest: before }))?;
+    let mut played = team(&first).map_err(Halt::from)?;
+    let mut watch_first = |_: &TeamMove<'_>| watch(Progress { runs: 0, smallest });
+    let report = run(&mut *played, &first.layout, first.limits, &mut watch_first)?;
     let Violation { clause, step } = first_violation(&report, asked)?;
-    before.steps = step;
     let limits = Limits::stopping_at(Some(clause));
+    // Sensors that chance has missed are parts as those that are named, unless the run needs that more may be missed.
+    let missed = played.misses().to_vec();
+    let named = Setup { miss: Probability::NEVER, missed, limits, ..first.clone() };
+    let is_broken = |report: &Report| report.violations.iter().any(|broken| broken.clause == clause);
+    let is_alike = setup.miss.is_never() || is_broken(&explore(&named, &mut watch_first)?);
+    let first = if is_alike { named } else { first };
+    let before = extent(&first, step);
+    let Setup { robots, layout, base, starts: own, missed, .. } = first.clone();
+    let case = Case { robots, layout, base, starts: own.filter(|_| !is_default).unwrap_or_default(), missed };
     let made = |Case { robots, layout, base, starts: own, missed }: Case| {
         let starts = if is_default { starts(robots, &layout, base) } else { Some(own) };
         Setup { robots, layout, base, starts, missed, limits, ..first.clone() }
@@ -87,9 +94,8 @@ pub fn minimise(
             edges.extend(made.frame.bumps());
             watch(progress)
         })?;
-        let is_broken = report.violations.iter().any(|broken| broken.clause == clause);
         let met = Some(Obstacles { area: report.chart.area(), edges });
-        Ok(is_broken.then_some(BrokenClause { steps: report.steps, met }))
+        Ok(is_broken(&report).then_some(BrokenClause { steps: report.steps, met }))
     })?;
     let Shrinkage { case, extent: after, runs } = shrunk;
     Ok(Minimal { setup: made(case), clause, before, after, runs })

@@ -13,7 +13,9 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Claim, Mark, Scan};
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
-use tautline_proofs::run::Frame;
+use tautline_proofs::judge::floor::{self as judge, JudgeInput, Judgement, Turn};
+use tautline_proofs::judge::{Case, Place};
+use tautline_proofs::run::{Frame, place, sides};
 
 use super::clause::broken;
 use super::floor::{self, Component, SensorFloor, is_visited};
@@ -52,7 +54,8 @@ pub const UNVISITED: ClauseId = ClauseId::new("BRICKS-6");
 struct Misses {
     chance: Probability,
     dice: Dice,
-    /// The numbers of the questions, counted from 1, that are answered yes; in order.
+    /// The numbers of the questions, counted from 1, that are answered yes; in order. Those that
+    /// are drawn come to them.
     written: Vec<u32>,
     asked: u32,
 }
@@ -81,8 +84,12 @@ impl Oracle for Misses {
 
     fn mishap(&mut self) -> bool {
         self.asked = self.asked.saturating_add(1);
-        let is_missed = !self.chance.is_never() && self.chance.happens(&mut self.dice);
-        is_missed || self.written.binary_search(&self.asked).is_ok()
+        let is_drawn = !self.chance.is_never() && self.chance.happens(&mut self.dice);
+        let place = self.written.binary_search(&self.asked);
+        if let (true, Err(place)) = (is_drawn, place) {
+            self.written.insert(place, self.asked);
+        }
+        is_drawn || place.is_ok()
     }
 }
 
@@ -318,6 +325,37 @@ impl<S: Scheme> Team for Patrol<S> {
         let is_promised = self.team.scheme.promises(self.team.misses.sight());
         let is_unvisited = is_promised && end != End::Idle && visited < cells;
         broken([(is_unvisited, UNVISITED), (is_unexplored, UNEXPLORED)])
+    }
+
+    /// Where marks decide, there is no judge; nor does it know which of several agents was done too early.
+    fn case(&mut self, layout: &Layout, clause: ClauseId) -> Option<Box<dyn Case>> {
+        let starts: Vec<Place> = self.team.cells.iter().copied().map(place).collect();
+        (clause != PREMATURE || starts.len() == 1).then_some(())?;
+        let mut turns = Vec::new();
+        let end = loop {
+            let acting: Vec<bool> = self.team.bodies.iter().map(|body| !body.is_done).collect();
+            if let Err(end) = self.advance(&mut |edge: Edge| layout.is_open(edge)) {
+                break end;
+            }
+            for (agent, body) in self.team.bodies.iter().enumerate().filter(|(agent, _)| acting[*agent]) {
+                turns.push(Turn { agent, to: place(body.cell), is_done: body.is_done });
+            }
+        };
+        let awake = self.team.bodies.iter().filter(|body| !body.is_done).count();
+        let round = if end == End::Endless { self.watch.as_ref()?.moves as usize * awake } else { 0 };
+        let size = (layout.width().into(), layout.height().into());
+        let run = JudgeInput {
+            walls: layout.walls().map(sides).collect(),
+            blocked: layout.cells().filter(|&cell| !layout.is_free(cell)).map(place).collect(),
+            round,
+            ..JudgeInput::open(clause.as_str(), size, starts, turns)
+        };
+        let is_read = (awake == 0 || round > 0) && judge::judge(&run) != Ok(Judgement::Unseen);
+        is_read.then(|| Box::new(run) as Box<dyn Case>)
+    }
+
+    fn misses(&self) -> &[u32] {
+        &self.team.misses.written
     }
 
     fn marked(&self) -> &[(Cell, Mark)] {

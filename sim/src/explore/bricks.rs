@@ -5,13 +5,11 @@ use tautline_kernel::bricks::tree::Rule as Trees;
 use tautline_kernel::bricks::{Condition, Rule as Bricks};
 use tautline_kernel::floor::{Mark, SensorFate};
 use tautline_kernel::ground::Cell;
-use tautline_proofs::judge::Case;
-use tautline_proofs::judge::floor::{self, Judgement};
+use tautline_proofs::judge::floor::JudgeInput;
 use tautline_proofs::plural::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNEXPLORED, UNVISITED, unvisited};
-use super::hunt_states::{crew, switched};
-use super::judge_input::of_agent;
+use super::hunt_states::{crew, switched_crew};
 use super::{Clause, Knowledge, Profile, Rule, RuleId, Setup, Survey, TeamMove};
 
 const ALONE: Bricks = Bricks::PUBLISHED.with(Condition::Alone);
@@ -23,20 +21,12 @@ pub static BRICKS: Profile = Profile {
     name: "bricks",
     about: "Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left",
     rules: &[
-        crew!(Rule::published, Bricks::PUBLISHED).switched(&switched(Bricks::PUBLISHED)),
-        crew!(Rule::repaired, Bricks::REPAIRED).switched(&switched(Bricks::REPAIRED)),
-        crew!(RuleId::new("alone"), "As published; no cell is marked in which another agent is", ALONE)
-            .switched(&switched(ALONE)),
-        crew!(RuleId::new("beside"), "As published; a missed sensor stays beside the new one", BESIDE)
-            .switched(&switched(BESIDE)),
-        crew!(
-            RuleId::new("counted"),
-            "As published; a new sensor takes over what a missed one says",
-            COUNTED
-        )
-        .switched(&switched(COUNTED)),
-        crew!(RuleId::new("tree"), "Trees close the loops in place of laps", Trees::TREE)
-            .switched(&switched(Trees::TREE)),
+        switched_crew!(Rule::published; Bricks::PUBLISHED),
+        switched_crew!(Rule::repaired; Bricks::REPAIRED),
+        switched_crew!(RuleId::new("alone"), "As published; no cell is marked in which another agent is"; ALONE),
+        switched_crew!(RuleId::new("beside"), "As published; a missed sensor stays beside the new one"; BESIDE),
+        switched_crew!(RuleId::new("counted"), "As published; a new sensor takes over what a missed one says"; COUNTED),
+        switched_crew!(RuleId::new("tree"), "Trees close the loops in place of laps"; Trees::TREE),
     ],
     ..MARKING
 };
@@ -45,7 +35,7 @@ pub static BRICKS: Profile = Profile {
 pub static BRICKS_ANTS: Profile = Profile {
     name: "bricks-ants",
     about: "Brick&Mortar with ants' ways, robust against missed sensors",
-    rules: &[crew!(Rule::repaired, Bricks::ROBUST).switched(&switched(Bricks::ROBUST))],
+    rules: &[switched_crew!(Rule::repaired; Bricks::ROBUST)],
     ..MARKING
 };
 
@@ -57,10 +47,12 @@ pub(super) const MARKING: Profile = Profile {
         Clause::new(UNEXPLORED.as_str()),
         Clause { missed: Some("Connected with a start and not visited"), ..Clause::new(UNVISITED.as_str()) },
     ],
-    // Where marks decide, there is no judge.
-    case: |setup, clause, frames| {
-        let agent = (clause == PREMATURE && setup.robots == 1).then(|| of_agent(setup, clause, frames))?;
-        (floor::judge(&agent) != Ok(Judgement::Unseen)).then(|| Box::new(agent) as Box<dyn Case>)
+    // A run that nobody has made yet may have no end.
+    case: |setup, clause, frames| match frames {
+        [] if clause != PREMATURE || setup.robots == 1 => {
+            Some(Box::new(JudgeInput::open(clause.as_str(), (0, 0), Vec::new(), Vec::new())))
+        }
+        [..] => super::team(setup).ok()?.case(&setup.layout, clause),
     },
     ..AGENTS
 };

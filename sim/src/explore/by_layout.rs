@@ -10,7 +10,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::engine::cases::{self, Cases, Outcome, Shard};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, HuntRequest, Hunter, RUN_AGAIN};
+use super::hunt::{Bound, Deals, Dealt, Far, Hunt, HuntReport, HuntRequest, Hunter, RUN_AGAIN, read_deal};
 
 /// A hunt that outcomes at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
@@ -74,7 +74,7 @@ impl<E: Each> Hunt for E {
 impl<E: Each> Deals for E {
     fn deal(&self, asked: &HuntRequest<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         let left = cases::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
-        Ok(Dealt { deal: Deal::write(asked, ())?, left, of: "layout", moves: 0 })
+        Ok(Dealt { deal: encode(&(asked.bounds, ()))?, left, of: "layout", moves: 0 })
     }
 
     fn part<'a>(
@@ -84,7 +84,7 @@ impl<E: Each> Deals for E {
         shard: (usize, usize),
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
-        let (asked, ()) = Deal::read(deal, asked)?;
+        let (asked, ()) = read_deal(deal, asked)?;
         let outcomes = far.map(|far| decode(far, RUN_AGAIN)).transpose()?.unwrap_or_default();
         let shard = Shard::new(self.layouts(&asked)?, shard, outcomes, asked.budget);
         let shard = shard.map_err(Into::into)?;
@@ -101,7 +101,7 @@ impl<E: Each> Deals for E {
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
-        let (asked, ()) = Deal::read(deal, asked)?;
+        let (asked, ()) = read_deal(deal, asked)?;
         let outcomes = shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = cases::merged(&self.layouts(&asked)?, outcomes).map_err(Into::into)?;
         self.report(&asked, found, is_complete)

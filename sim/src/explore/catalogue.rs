@@ -215,7 +215,7 @@ impl Profile {
             look: Look::Own,
             knowledge: None,
             clauses: &[],
-            case: |_, _, _| None,
+            case: |setup, clause, _| super::team(setup).ok()?.case(&setup.layout, clause),
         }
     }
 }

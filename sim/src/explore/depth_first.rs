@@ -5,7 +5,7 @@ use tautline_kernel::bricks::tree::Rule as Trees;
 use tautline_proofs::bricks::tree::mdfs::Mdfs;
 
 use super::bricks::MARKING;
-use super::hunt_states::{crew, switched};
+use super::hunt_states::{crew, switched_crew};
 use super::{Profile, Rule, RuleId};
 
 /// Multiple depth first search.
@@ -21,15 +21,13 @@ pub static HELPERS: Profile = Profile {
     name: "helpers",
     about: "Depth first search by agents on a sensor floor that share the trees that they meet",
     rules: &[
-        crew!(Rule::repaired, Trees::ROBUST).switched(&switched(Trees::ROBUST)),
-        crew!(RuleId::new("trusting"), "As if no sensor were ever missed", Trees::HELPERS)
-            .switched(&switched(Trees::HELPERS)),
-        crew!(
+        switched_crew!(Rule::repaired; Trees::ROBUST),
+        switched_crew!(RuleId::new("trusting"), "As if no sensor were ever missed"; Trees::HELPERS),
+        switched_crew!(
             RuleId::new("doubting"),
-            "Places sensors unasked, after three scans in a row that miss one",
+            "Places sensors unasked, after three scans in a row that miss one";
             Trees::DOUBTING
-        )
-        .switched(&switched(Trees::DOUBTING)),
+        ),
     ],
     ..MARKING
 };

@@ -90,7 +90,6 @@ pub static FRONTIER: Profile = Profile {
         Clause::new(MARKS.as_str()),
         Clause::new(ONCE.as_str()),
     ],
-    case: |setup, clause, _| super::team(setup).ok()?.case(&setup.layout, clause),
     ..Profile::named("frontier")
 };
 

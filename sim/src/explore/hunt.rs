@@ -2,19 +2,20 @@
 //! which bounds it takes, and returns what it has found as plain data; storing, drawing and printing are the same for
 //! all hunts.
 
+use std::collections::BTreeSet;
+
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use tautline_io::checkpoint::{decode, encode};
+use tautline_io::checkpoint::decode;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Run;
 
 pub use super::bounds::{Bound, CoveredBound, Dealt, Exhibit, Facts, Far, Hunter, RunSize};
-pub use super::scheme::{Deals, Finding, Hunt, HuntReport, HuntRequest, OngoingHunt};
+pub use super::scheme::{Deals, Finding, Hunt, HuntBounds, HuntReport, HuntRequest, OngoingHunt};
 use super::setup::{ALONE, needless};
 use super::{ClauseId, Limits, Profile, RuleId, Scheme, Setup};
-use tautline_grids::layout::{Layout, Size};
+use tautline_grids::layout::Layout;
 
 impl Scheme {
     /// The fault of a rule that is not hunted.
@@ -39,58 +40,20 @@ impl Scheme {
 /// The remedy for a shard that was never there.
 pub(super) const RUN_AGAIN: &str = "run the shard again";
 
-/// A hunt that is dealt out, and how it is, as a plan has it.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Deal<T> {
-    robots: Option<u64>,
-    size: Option<(i16, i16)>,
-    max_walls: Option<u32>,
-    max_misses: Option<u8>,
-    max_losses: Option<u8>,
-    error_cells: Option<f64>,
-    how: T,
-}
-
-impl<T: Serialize + DeserializeOwned> Deal<T> {
-    /// The deal of what is `asked`, as a plan has it.
-    pub(super) fn write(asked: &HuntRequest<'_>, how: T) -> Result<Box<RawValue>, Diagnostic> {
-        let &HuntRequest { robots, max_walls, max_misses, max_losses, error_cells, .. } = asked;
-        let size = asked.size.map(|size| (size.width(), size.height()));
-        encode(&Self { robots, size, max_walls, max_misses, max_losses, error_cells, how })
-    }
-
-    /// The hunt that is dealt out, and how it is: the scheme, the rule and the budget stand in `asked`.
-    pub(super) fn read<'a>(
-        text: &RawValue,
-        asked: &HuntRequest<'a>,
-    ) -> Result<(HuntRequest<'a>, T), Diagnostic> {
-        let deal = decode(text, "plan anew")?;
-        let Self { robots, size, max_walls, max_misses, max_losses, error_cells, how } = deal;
-        let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
-        let size = size.map_err(|problem| problem.with_remedy("plan anew"))?;
-        Ok((HuntRequest { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked }, how))
-    }
+/// The hunt that is dealt out, and how it is: a plan has its bounds and that, and the scheme, the rule and the budget
+/// stand in `asked`.
+pub(super) fn read_deal<'a, T: DeserializeOwned>(
+    deal: &RawValue,
+    asked: &HuntRequest<'a>,
+) -> Result<(HuntRequest<'a>, T), Diagnostic> {
+    let (bounds, how) = decode(deal, "plan anew")?;
+    Ok((HuntRequest { bounds, ..*asked }, how))
 }
 
 impl HuntRequest<'_> {
     /// The hunt of a scheme by a rule, everything else being its own to choose.
     pub fn new(scheme: impl Into<Scheme>, rule: RuleId) -> Self {
-        Self {
-            scheme: scheme.into(),
-            rule,
-            robots: None,
-            size: None,
-            budget: None,
-            max_walls: None,
-            max_cells: None,
-            max_misses: None,
-            max_losses: None,
-            error_cells: None,
-            range_cells: None,
-            equal_speeds: false,
-            resume: None,
-        }
+        Self { scheme: scheme.into(), rule, bounds: HuntBounds::default(), budget: None, resume: None }
     }
 
     /// The run of robots from `starts` in `layout`. It stops where it breaks `clause`, and may break others before; if
@@ -106,7 +69,7 @@ impl HuntRequest<'_> {
     ) -> Result<Setup, Diagnostic> {
         let base = Setup::choose_base(&mut layout, starts.first().copied())?;
         let mut setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
-        setup.options.range_cells = self.range_cells;
+        setup.options.range_cells = self.bounds.range_cells;
         Ok(Setup { limits: Limits::stopping_at(clause), ..setup.starting_in(starts) })
     }
 
@@ -115,13 +78,14 @@ impl HuntRequest<'_> {
     /// # Errors
     /// A [`Diagnostic`] that says why.
     pub fn check(&self, hunt: &dyn Hunt) -> Result<(), Diagnostic> {
+        let bounds = &self.bounds;
         let given = [
-            (Bound::Walls, self.max_walls.is_some()),
-            (Bound::Cells, self.max_cells.is_some()),
-            (Bound::Misses, self.max_misses.is_some()),
-            (Bound::Losses, self.max_losses.is_some()),
-            (Bound::Error, self.error_cells.is_some()),
-            (Bound::Range, self.range_cells.is_some()),
+            (Bound::Walls, bounds.max_walls.is_some()),
+            (Bound::Cells, bounds.max_cells.is_some()),
+            (Bound::Misses, bounds.max_misses.is_some()),
+            (Bound::Losses, bounds.max_losses.is_some()),
+            (Bound::Error, bounds.error_cells.is_some()),
+            (Bound::Range, bounds.range_cells.is_some()),
             (Bound::Resume, self.resume.is_some()),
         ];
         for (bound, _) in given.into_iter().filter(|(_, is_given)| *is_given) {
@@ -129,7 +93,7 @@ impl HuntRequest<'_> {
                 let (what, remedy) = hunt.refusal(bound);
                 return Err(Diagnostic::usage(what, remedy));
             }
-            if self.robots == Some(1) && matches!(bound, Bound::Losses | Bound::Range) {
+            if bounds.robots == Some(1) && matches!(bound, Bound::Losses | Bound::Range) {
                 return Err(needless(bound.field(), ALONE));
             }
         }
@@ -162,12 +126,10 @@ pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>
     }
 }
 
-/// All areas up to a size, fewest cells first.
-pub(crate) fn areas(size: Size) -> Vec<(i16, i16)> {
-    let mut areas: Vec<(i16, i16)> =
-        (1..=size.height()).flat_map(|height| (1..=size.width()).map(move |width| (width, height))).collect();
-    areas.sort_by_key(|&(width, height)| (width * height, height));
-    areas
+/// These clauses in the order of their families and numbers, which is that of the ledger, each once.
+pub(super) fn in_order(clauses: impl IntoIterator<Item = &'static str>) -> Vec<&'static str> {
+    let clauses: BTreeSet<ClauseId> = clauses.into_iter().map(ClauseId::new).collect();
+    clauses.into_iter().map(ClauseId::as_str).collect()
 }
 
 /// The run of `scheme` that `found` is, in the area of its search; it stops at the violation of what it was found for,
@@ -192,4 +154,69 @@ pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Diagnostic> {
     let layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?.with_walls(walls);
     let layout = layout.with_blocked(found.obstacles.iter().copied().map(shifted));
     Ok((layout, found.starts.iter().copied().map(shifted).collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use serde_json::Value;
+    use tautline_io::checkpoint::encode;
+
+    use super::super::RuleId;
+    use super::super::chain::CHAIN;
+    use super::*;
+
+    /// A hunt that takes no bound.
+    #[derive(Debug)]
+    struct Boundless;
+
+    impl Hunt for Boundless {
+        fn takes(&self) -> &'static [Bound] {
+            &[]
+        }
+
+        fn hunt(&self, _: &HuntRequest<'_>, _: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+            Err(self.refusal(Bound::Walls)).map_err(|(what, remedy)| Diagnostic::usage(what, remedy))
+        }
+    }
+
+    const ALL: &str = concat!(
+        r#"{"robots":2,"size":[3,2],"max_walls":1,"max_cells":6,"max_misses":1,"max_losses":1,"#,
+        r#""error_cells":1.0,"range_cells":3,"equal_speeds":true}"#
+    );
+
+    fn asked(bounds: HuntBounds) -> HuntRequest<'static> {
+        HuntRequest { bounds, ..HuntRequest::new(&CHAIN, RuleId::PUBLISHED) }
+    }
+
+    #[test]
+    fn no_bound_is_lost_in_a_plan() {
+        let bounds: HuntBounds = serde_json::from_str(ALL).expect("bounds");
+        let deal = encode(&(bounds, ())).expect("a deal");
+        let (read, ()) = read_deal(&deal, &asked(HuntBounds::default())).expect("a deal");
+        assert_eq!(serde_json::to_string(&read.bounds).expect("bounds"), ALL);
+    }
+
+    #[test]
+    fn a_plan_with_other_bounds_is_refused() {
+        for other in
+            [r#"{"robots":null,"how":null}"#, r#"[{"max_width":1},null]"#, r#"[{"size":[0,1]},null]"#]
+        {
+            let deal = RawValue::from_string(other.to_owned()).expect("JSON");
+            let read = read_deal::<()>(&deal, &asked(HuntBounds::default()));
+            assert!(read.is_err(), "{other}");
+        }
+    }
+
+    #[test]
+    fn every_bound_that_a_hunt_does_not_take_is_refused() {
+        let all: BTreeMap<String, Value> = serde_json::from_str(ALL).expect("bounds");
+        for (name, value) in all {
+            let bounds = BTreeMap::from([(&name, value)]);
+            let bounds = serde_json::to_value(bounds).and_then(serde_json::from_value).expect("a bound");
+            let is_taken = asked(bounds).check(&Boundless).is_ok();
+            assert_eq!(is_taken, ["robots", "size", "equal_speeds"].contains(&name.as_str()), "{name}");
+        }
+    }
 }

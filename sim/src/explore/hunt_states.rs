@@ -6,11 +6,11 @@ use tautline_proofs::floor::crew::Scheme as Crew;
 use tautline_proofs::floor::trap::{Bounds, End, MAX_AGENTS, MAX_CELLS, Trap, TrapReport};
 use tautline_proofs::plural::counted;
 
-use super::Setup;
 use super::agents::{self, PREMATURE, UNEXPLORED};
 use super::by_layout::Each;
 use super::hunt::{Bound, CoveredBound, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
 use super::switches::SwitchableRule;
+use super::{ClauseId, Setup};
 use tautline_grids::layout::{Layout, Size};
 
 /// Columns and rows of the layouts at most, if nobody says.
@@ -37,6 +37,14 @@ macro_rules! crew {
     };
 }
 pub(super) use crew;
+
+/// The rule of a crew whose conditions can be switched.
+macro_rules! switched_crew {
+    ($($rule:expr),+; $crew:expr) => {
+        crew!($($rule),+, $crew).switched(&$crate::explore::hunt_states::switched($crew))
+    };
+}
+pub(super) use switched_crew;
 
 /// The rule of a crew whose conditions can be switched.
 pub(super) const fn switched<C: Crew>(rule: C) -> SwitchableRule<C> {
@@ -75,8 +83,8 @@ impl<C: Crew> Each for Traps<C> {
     }
 
     fn layouts(&self, asked: &HuntRequest<'_>) -> Result<Bounds<C>, Diagnostic> {
-        let size = asked.size.map_or_else(|| Size::new(DEFAULT_SIDE, DEFAULT_SIDE), Ok)?;
-        let agents = asked.robots.unwrap_or(DEFAULT_AGENTS);
+        let size = asked.bounds.size.map_or_else(|| Size::new(DEFAULT_SIDE, DEFAULT_SIDE), Ok)?;
+        let agents = asked.bounds.robots.unwrap_or(DEFAULT_AGENTS);
         let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
         let agents = fitting.ok_or_else(|| {
             let what = format!("there is no hunt for traps of {agents} agents");
@@ -91,7 +99,7 @@ impl<C: Crew> Each for Traps<C> {
         Ok(Bounds {
             scheme: self.0,
             agents,
-            max_misses: asked.max_misses.unwrap_or(DEFAULT_MISSES),
+            max_misses: asked.bounds.max_misses.unwrap_or(DEFAULT_MISSES),
             max_width: size.width(),
             max_height: size.height(),
             budget_steps: asked.budget,
@@ -100,7 +108,7 @@ impl<C: Crew> Each for Traps<C> {
 
     fn so_far(&self, asked: &HuntRequest<'_>, found: &TrapReport) -> String {
         let TrapReport { layouts, states, levels, .. } = found;
-        let max_misses = asked.max_misses.unwrap_or(DEFAULT_MISSES);
+        let max_misses = asked.bounds.max_misses.unwrap_or(DEFAULT_MISSES);
         format!("misses {levels} of {max_misses}, layouts {layouts}, states {states}")
     }
 
@@ -129,6 +137,7 @@ impl<C: Crew> Each for Traps<C> {
                 "{all_agents}{order}, at most {max_misses} missed, layouts up to {size}: {all_layouts}, \
                  {all_states}, {all_moves}"
             ),
+            looked_for: [PREMATURE, UNEXPLORED].map(ClauseId::as_str).to_vec(),
             facts: Facts::Layouts { size, layouts, states, steps, max_misses },
             is_complete,
             done: CoveredBound::MissesDone(done),

@@ -53,7 +53,6 @@ pub static KIT: Profile = Profile {
         Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
         Clause::new(ANY_SHORTEST.as_str()),
     ],
-    case: |setup, clause, _| super::team(setup).ok()?.case(&setup.layout, clause),
     ..Profile::named("kit")
 };
 

@@ -138,6 +138,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
         let (width, height) = self.setting.ground.size;
         Ok(HuntReport {
             robots: self.setting.robots as u64,
+            looked_for: self.setting.demands.iter().map(|demand| demand.id).collect(),
             facts: Facts::States {
                 size: format!("{width}x{height}"),
                 states: cases,

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_io::checkpoint::Part;
 use tautline_io::diagnostic::Diagnostic;
@@ -203,9 +203,9 @@ pub trait Hunt: fmt::Debug + Sync {
     /// A [`Diagnostic`] if it cannot be searched so.
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
 
-    /// The request `asked`, with the bounds within which the choices of the run of `setup` were found.
-    fn again<'a>(&self, _setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
-        asked
+    /// These bounds, with those within which the choices of the run of `setup` were found.
+    fn again(&self, _setup: &Setup, bounds: HuntBounds) -> HuntBounds {
+        bounds
     }
 
     /// The hunt as one that is dealt out among shards, if that is possible.
@@ -222,19 +222,29 @@ pub trait Hunt: fmt::Debug + Sync {
     }
 }
 
-/// The question that a hunt answers. Whatever is not given is the hunt's to choose.
+/// The question that a hunt answers.
 #[derive(Clone, Copy, Debug)]
 pub struct HuntRequest<'a> {
     /// The scheme.
     pub scheme: Scheme,
     /// Its rule.
     pub rule: RuleId,
+    /// The bounds.
+    pub bounds: HuntBounds,
+    /// Team moves after which the search ends, those of earlier calls not counted.
+    pub budget: Option<u64>,
+    /// [`Bound::Resume`]
+    pub resume: Option<&'a Path>,
+}
+
+/// The bounds of a hunt, as a plan deals them out, too. Whatever is not given is the hunt's to choose.
+#[derive(Clone, Copy, Default, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct HuntBounds {
     /// Robots.
     pub robots: Option<u64>,
     /// Columns and rows.
     pub size: Option<Size>,
-    /// Team moves after which the search ends, those of earlier calls not counted.
-    pub budget: Option<u64>,
     /// [`Bound::Walls`]
     pub max_walls: Option<u32>,
     /// [`Bound::Cells`]
@@ -249,8 +259,6 @@ pub struct HuntRequest<'a> {
     pub range_cells: Option<u16>,
     /// Whether runs of robots at equal speeds alone are looked for.
     pub equal_speeds: bool,
-    /// [`Bound::Resume`]
-    pub resume: Option<&'a Path>,
 }
 
 /// The outcome of a hunt.
@@ -258,6 +266,8 @@ pub struct HuntRequest<'a> {
 pub struct HuntReport {
     /// Robots.
     pub robots: u64,
+    /// The clauses that were looked for, in the order of their families and numbers.
+    pub looked_for: Vec<&'static str>,
     /// How much was searched, and within which bounds.
     pub facts: Facts,
     /// Whether every layout within the bounds was covered.

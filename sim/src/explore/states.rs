@@ -7,7 +7,8 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::engine::states::{self, Findings, Limits, System};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, outcome};
+use super::ClauseId;
+use super::hunt::{CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, in_order, outcome};
 use tautline_grids::layout::Size;
 
 /// States between two words about how far the search is.
@@ -43,7 +44,7 @@ impl Small {
     /// A [`Diagnostic`] if it is too large.
     pub(super) fn size(&self, asked: &HuntRequest<'_>) -> Result<Size, Diagnostic> {
         let (width, height) = Self::DEFAULT_SIZE;
-        let size = asked.size.map_or_else(|| Size::new(width, height), Ok)?;
+        let size = asked.bounds.size.map_or_else(|| Size::new(width, height), Ok)?;
         let (most_cells, &Self { cell, most_side: (most_side, side), examples, .. }) =
             (Self::MOST_CELLS, self);
         if size.cells() <= most_cells && size.width().max(size.height()) <= most_side {
@@ -65,7 +66,7 @@ impl Small {
         size: Size,
         area: &str,
     ) -> Result<u64, Diagnostic> {
-        let robots = asked.robots.unwrap_or(Self::DEFAULT_ROBOTS);
+        let robots = asked.bounds.robots.unwrap_or(Self::DEFAULT_ROBOTS);
         let room = size.cells() as u64;
         let (what, remedy) = match robots {
             0 => (self.no_robots.to_owned(), format!("from 1 to {most}")),
@@ -89,14 +90,16 @@ impl Small {
         facts: Facts,
         done: CoveredBound,
         count: Count,
-        found: Vec<Finding>,
+        mut found: Vec<Finding>,
     ) -> HuntReport {
-        let Count { is_complete, not_minimised, .. } = count;
+        found.sort_by_key(|found| ClauseId::new(found.clause));
+        let (is_complete, not_minimised) = (count.is_complete, in_order(count.not_minimised));
         let (states, steps) = (counted(count.states, "state"), counted(count.steps, "step"));
         let covered = count.cells.map(|cells| format!("of at most {}", counted(cells, self.cell)));
         let outcome = outcome(&found, is_complete, covered);
         HuntReport {
             robots,
+            looked_for: in_order(count.looked_for),
             facts,
             is_complete,
             done,
@@ -117,6 +120,8 @@ impl Small {
 /// How much was searched.
 #[derive(Default)]
 pub(super) struct Count {
+    /// The clauses that are looked for.
+    pub(super) looked_for: Vec<&'static str>,
     pub(super) states: u64,
     pub(super) steps: u64,
     /// The cells up to which all areas were searched.

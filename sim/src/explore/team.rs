@@ -84,6 +84,12 @@ pub trait Team {
         &[]
     }
 
+    /// The numbers of the sensors that were missed so far among all that were asked about, by chance or as it is
+    /// written down, and of those that are written down and come later.
+    fn misses(&self) -> &[u32] {
+        &[]
+    }
+
     /// The parts of a sensor floor in which agents started; none for teams without one.
     fn components(&self) -> &[Component] {
         &[]

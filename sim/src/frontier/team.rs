@@ -107,10 +107,14 @@ impl Explorers {
         &self.cells
     }
 
-    /// Whether a robot has noted in the last team move what is not so, and whether one has entered as its frontier
-    /// cell what a robot had entered before.
-    pub const fn faults(&self) -> (bool, bool) {
-        (self.is_wrong, self.is_again)
+    /// Whether a robot has noted in the last team move what is not so.
+    pub const fn has_false_note(&self) -> bool {
+        self.is_wrong
+    }
+
+    /// Whether a robot has entered as its frontier cell in the last team move what a robot had entered before.
+    pub const fn has_entered_again(&self) -> bool {
+        self.is_again
     }
 
     /// Whether positions have an error.

@@ -5,6 +5,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::conditions::Conditional;
 use tautline_kernel::ground::{Area, Cell};
 use tautline_proofs::engine::states::{self, Ending, Limits, System};
+use tautline_sim::explore::ClauseId;
 
 use crate::play::Play;
 use crate::settings::Settings;
@@ -73,7 +74,7 @@ pub(super) fn search<W: System>(
         }
         found.push(order);
     }
-    found.sort_by_key(|order| order.clause);
+    found.sort_by_key(|order| ClauseId::new(order.clause));
     HuntFindings { states: findings.states, is_complete: findings.is_whole, found }
 }
 

@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::minimal::{Failure, Minimal, Refusal, first_violation};
-use super::shrink::{Case, Extent, Progress};
-use crate::explore::hunt::{Bound, Exhibit, Far, Finding, HuntRequest, Hunter, areas};
+use super::shrink::{Extent, Progress};
+use crate::explore::hunt::{Bound, Exhibit, Far, Finding, HuntBounds, HuntRequest, Hunter};
 use crate::explore::{ClauseId, Setup, explore};
 use tautline_grids::layout::Size;
 
@@ -38,10 +38,7 @@ pub(super) fn minimise(
     asked: Option<ClauseId>,
     watch: &mut dyn FnMut(Progress) -> Result<(), Halt>,
 ) -> Result<Minimal, Failure> {
-    let extent = |setup: &Setup, steps| {
-        let Setup { robots, layout, base, .. } = setup.clone();
-        Extent::new(&Case { robots, layout, base, starts: Vec::new(), missed: Vec::new() }, steps)
-    };
+    let extent = |setup: &Setup, steps| Extent::new(setup.robots, &setup.layout, 0, steps);
     let report = explore(setup, &mut |_| Ok(()))?;
     let violation = first_violation(&report, asked)?;
     let before = extent(setup, violation.step);
@@ -51,15 +48,12 @@ pub(super) fn minimise(
     let mut refused = None;
     let least = *setup.scheme.robots.start() as u16;
     for robots in least..=setup.robots {
-        for (columns, rows) in areas(setup.layout.size()) {
+        for (columns, rows) in setup.layout.size().areas() {
             let size = Some(Size::new(columns as u64, rows as u64).map_err(Halt::from)?);
-            let asked = HuntRequest {
-                robots: Some(robots.into()),
-                size,
-                max_walls,
-                ..HuntRequest::new(setup.scheme, setup.rule)
-            };
-            let hunted = match hunt.hunt(&hunt.again(setup, asked), &mut watcher) {
+            let bounds = HuntBounds { robots: Some(robots.into()), size, max_walls, ..HuntBounds::default() };
+            let bounds = hunt.again(setup, bounds);
+            let asked = HuntRequest { bounds, ..HuntRequest::new(setup.scheme, setup.rule) };
+            let hunted = match hunt.hunt(&asked, &mut watcher) {
                 Ok(hunted) => hunted,
                 // A size without room for the robots is none to search.
                 Err(diagnostic) => {

@@ -36,15 +36,14 @@ const fn is_none(count: &usize) -> bool {
 }
 
 impl Extent {
-    pub(super) fn new(case: &Case, steps: u32) -> Self {
-        let layout = &case.layout;
+    pub(super) fn new(robots: u16, layout: &Layout, missed: usize, steps: u32) -> Self {
         Self {
-            robots: case.robots,
+            robots,
             columns: layout.width(),
             rows: layout.height(),
             walls: layout.walls().count(),
             blocked: layout.size().cells() - layout.free_cells(),
-            missed: case.missed.len(),
+            missed,
             steps,
         }
     }
@@ -112,7 +111,7 @@ pub struct Shrinkage {
 /// # Errors
 /// [`Halt`] if `breaks` ended the work.
 pub fn shrink(case: Case, steps: u32, least: u16, breaks: &mut Breaks<'_>) -> Result<Shrinkage, Halt> {
-    let extent = Extent::new(&case, steps);
+    let extent = Extent::new(case.robots, &case.layout, case.missed.len(), steps);
     let progress = Progress { runs: 0, smallest: extent };
     let mut shrinker = Shrinker { smallest: case, progress, breaks };
     shrinker.attempt(&shrinker.smallest.clone())?;
@@ -329,7 +328,8 @@ impl Shrinker<'_, '_> {
                 (self.smallest, steps) = (cut, again.steps);
             }
         }
-        self.progress.smallest = Extent::new(&self.smallest, steps);
+        let Case { robots, layout, missed, .. } = &self.smallest;
+        self.progress.smallest = Extent::new(*robots, layout, missed.len(), steps);
         Ok(true)
     }
 

@@ -6,8 +6,9 @@ use tautline_proofs::chain::areas::{Areas, Findings, Smallest, most_edges, searc
 use tautline_proofs::plural::counted;
 
 use super::bounds::{bounds, fault, finding, team};
+use crate::explore::ClauseId;
 use crate::explore::hunt::{
-    CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome,
+    CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, in_order, outcome,
 };
 
 /// Searches all areas of at most so many cells.
@@ -20,7 +21,7 @@ pub(super) fn hunt(
     if asked.resume.is_some() {
         refuse(asked, "resume", "a hunt over areas is not kept in a file")?;
     }
-    let areas = areas(observed, asked, max_cells)?;
+    let areas = areas_to_search(observed, asked, max_cells)?;
     let mut hears = |found: &Findings| {
         let done = found.cells.unwrap_or(0);
         let runs = counted(found.runs(), "run");
@@ -33,11 +34,11 @@ pub(super) fn hunt(
 /// Refuses what a hunt over areas does not take, if this is one.
 pub(super) fn refuse(asked: &HuntRequest<'_>, field: &'static str, what: &str) -> Result<(), Diagnostic> {
     let remedy = format!("leave `{field}` out; fewer `max-cells` or `max-walls` make it shorter");
-    asked.max_cells.map_or(Ok(()), |_| Err(Diagnostic::of_field(field, what, remedy)))
+    asked.bounds.max_cells.map_or(Ok(()), |_| Err(Diagnostic::of_field(field, what, remedy)))
 }
 
 /// The areas that are asked for.
-fn areas(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<Areas, Diagnostic> {
+fn areas_to_search(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<Areas, Diagnostic> {
     let (robots, walls) = team(asked);
     let whole = bounds(observed, robots, walls, None)?;
     let within_reach = (whole.area.width() * whole.area.height()) as u32;
@@ -50,7 +51,7 @@ fn areas(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<A
         return Err(Diagnostic::of_field("max-cells", what, remedy));
     }
     let edges = most_edges(max_cells);
-    if asked.max_walls.is_some_and(|walls| walls > edges) {
+    if asked.bounds.max_walls.is_some_and(|walls| walls > edges) {
         let what = format!("no area of {} has room for {walls} walls", counted(max_cells, "cell"));
         let remedy = format!("give `max-walls` a number up to {edges}, or more `max-cells`");
         return Err(Diagnostic::of_field("max-walls", what, remedy));
@@ -67,7 +68,8 @@ fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<Hu
             (RunSize::Area { columns, rows, walls, steps }, format!("{columns}x{rows} cells, {size}"))
         })
     });
-    let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
+    let mut findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
+    findings.sort_by_key(|found| ClauseId::new(found.clause));
     let &Areas { max_cells, max_walls, robots, .. } = areas;
     let (robots, runs, moves) = (robots as u64, found.runs(), found.moves());
     let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
@@ -79,6 +81,7 @@ fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<Hu
     let covered = found.cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
     Ok(HuntReport {
         robots,
+        looked_for: in_order(areas.invariants.iter().map(|invariant| invariant.clause())),
         facts: Facts::Areas { runs, moves, max_walls, max_cells, areas: found.searched.clone() },
         is_complete: found.is_complete,
         done: CoveredBound::CellsDone(found.cells),

@@ -24,7 +24,7 @@ const MOST_ROBOTS: usize = 64;
 
 /// Robots and walls that are asked for.
 pub(super) fn team(asked: &HuntRequest<'_>) -> (u64, u32) {
-    (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS))
+    (asked.bounds.robots.unwrap_or(DEFAULT_ROBOTS), asked.bounds.max_walls.unwrap_or(DEFAULT_WALLS))
 }
 
 /// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most

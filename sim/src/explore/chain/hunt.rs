@@ -8,7 +8,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Subject;
-use tautline_proofs::chain::search::{Bounds, Deal as Walk, Findings, Position, Search};
+use tautline_proofs::chain::search::{Bounds, Deal, Findings, Position, Search};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::{counted, listed};
 
@@ -16,10 +16,10 @@ use super::areas;
 pub use super::bounds::bounds;
 use super::bounds::{AGAIN, fault, finding, team};
 use crate::explore::hunt::{
-    Bound, CoveredBound, Deal, Deals, Dealt, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
-    OngoingHunt, RUN_AGAIN, RunSize, outcome,
+    Bound, CoveredBound, Deals, Dealt, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
+    OngoingHunt, RUN_AGAIN, RunSize, in_order, outcome, read_deal,
 };
-use crate::explore::{Catalogue, RuleId};
+use crate::explore::{Catalogue, ClauseId, RuleId};
 
 /// The chain that is hunted.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ impl Hunt for Walls {
     }
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
-        if let Some(cells) = asked.max_cells {
+        if let Some(cells) = asked.bounds.max_cells {
             return areas::hunt(self.0, asked, cells, hunter);
         }
         let bounds = self.bounds(asked)?;
@@ -84,9 +84,10 @@ impl OngoingHunt for BegunWalls {
 impl Walls {
     fn bounds(&self, asked: &HuntRequest<'_>) -> Result<Bounds, Diagnostic> {
         let (robots, walls) = team(asked);
-        let mut bounds = Bounds { budget_moves: asked.budget, ..bounds(self.0, robots, walls, asked.size)? };
+        let mut bounds =
+            Bounds { budget_moves: asked.budget, ..bounds(self.0, robots, walls, asked.bounds.size)? };
         // Walls that nobody has asked for are no more than there can be.
-        if asked.max_walls.is_none()
+        if asked.bounds.max_walls.is_none()
             && let Ok(reach) = bounds.reach()
         {
             bounds.max_walls = walls.min(reach.edges().count() as u32);
@@ -101,7 +102,7 @@ impl Deals for Walls {
         let search = start(&self.bounds(asked)?)?;
         let deal = search.deal(shards);
         let (left, moves) = (deal.left().to_vec(), deal.moves());
-        Ok(Dealt { deal: Deal::write(asked, deal)?, left, of: "team move", moves })
+        Ok(Dealt { deal: encode(&(asked.bounds, deal))?, left, of: "team move", moves })
     }
 
     fn part<'a>(
@@ -111,7 +112,7 @@ impl Deals for Walls {
         (shard, _): (usize, usize),
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
-        let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
+        let (asked, deal) = read_deal::<Deal>(deal, asked)?;
         let bounds = self.bounds(&asked)?;
         let search = match far {
             None => Search::shard(&bounds, &deal, shard),
@@ -126,7 +127,7 @@ impl Deals for Walls {
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
-        let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
+        let (asked, deal) = read_deal::<Deal>(deal, asked)?;
         let bounds = self.bounds(&asked)?;
         let positions =
             shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<Position>, _>>()?;
@@ -172,21 +173,23 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
             (RunSize::Runs { runs, walls, steps }, format!("{size}; broken in {}", counted(runs, "run")))
         })
     });
-    let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
+    let mut findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
+    findings.sort_by_key(|found| ClauseId::new(found.clause));
     let &Findings { runs, moves, longest, ref levels, .. } = found;
-    let max_walls = bounds.max_walls;
+    let (max_walls, is_complete) = (bounds.max_walls, found.complete && found.given_up == 0);
     let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
     let covered = done.map(|walls| format!("with at most {}", counted(walls, "wall")));
     let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
     let within = format!("{}, at most {}", counted(robots, "robot"), counted(max_walls, "wall"));
     Ok(HuntReport {
         robots,
+        looked_for: in_order(bounds.invariants.iter().map(|invariant| invariant.clause())),
         facts: Facts::Runs { runs, moves, longest, max_walls },
-        is_complete: found.complete && found.given_up == 0,
+        is_complete,
         done: CoveredBound::WallsDone(done),
         title: format!("{within}: {all_runs}, {all_moves}, {longest} the longest"),
         through: format!("{all_runs} and {all_moves}"),
-        outcome: outcome(&findings, done == Some(max_walls) && found.given_up == 0, covered),
+        outcome: outcome(&findings, is_complete, covered),
         not_minimised: Vec::new(),
         found: findings,
     })
@@ -294,7 +297,7 @@ mod tests {
 
     use super::*;
     use crate::explore::chain::CHAIN;
-    use crate::explore::hunt::Exhibit;
+    use crate::explore::hunt::{Exhibit, HuntBounds};
 
     struct Patient;
 
@@ -311,12 +314,14 @@ mod tests {
     /// The clauses that a hunt finds broken, and the stories of those that no file tells.
     fn found(observed: Subject) -> Vec<(&'static str, Option<String>)> {
         let asked = HuntRequest {
-            robots: Some(3),
-            max_walls: Some(2),
+            bounds: HuntBounds { robots: Some(3), max_walls: Some(2), ..HuntBounds::default() },
             ..HuntRequest::new(&CHAIN, RuleId::PUBLISHED)
         };
         let report = Walls(observed).hunt(&asked, &mut Patient).expect("it can be searched");
         assert!(report.is_complete);
+        let of_reels = observed == Subject::REEL || observed == Subject::REEL.following(Rule::REPAIRED);
+        let clauses = ["CHAIN-1", "CHAIN-2", "CHAIN-3", "CHAIN-7", "CHAIN-13", "CHAIN-24"];
+        assert_eq!(report.looked_for, clauses[..5 + usize::from(of_reels)]);
         let told = |finding: Finding| match finding.shown {
             Exhibit::Told(story) => (finding.clause, Some(story)),
             Exhibit::Run(_) | Exhibit::Story(..) | Exhibit::Endless => (finding.clause, None),

@@ -17,7 +17,7 @@ use tautline_proofs::run::ScriptedRun;
 
 pub(super) use self::rivals::RivalHunt;
 use crate::explore::hunt::{
-    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, areas,
+    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntBounds, HuntReport, HuntRequest, Hunter, RunSize,
     layout,
 };
 use crate::explore::states::{Count, Search, Small};
@@ -51,9 +51,9 @@ impl Hunt for KernelHunt {
     }
 
     /// The first two choices say how many messages are lost and how many fixes are wrong at most.
-    fn again<'a>(&self, setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
-        let Some(&[losses, wrong]) = setup.choices.first_chunk() else { return asked };
-        HuntRequest { max_losses: Some(losses as u8), error_cells: Some(f64::from(wrong)), ..asked }
+    fn again(&self, setup: &Setup, bounds: HuntBounds) -> HuntBounds {
+        let Some(&[losses, wrong]) = setup.choices.first_chunk() else { return bounds };
+        HuntBounds { max_losses: Some(losses as u8), error_cells: Some(f64::from(wrong)), ..bounds }
     }
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
@@ -71,6 +71,8 @@ impl Hunt for KernelHunt {
             2 => searched::<2>(self.0, size, error / WHOLE, &mut search),
             _ => searched::<3>(self.0, size, error / WHOLE, &mut search),
         }?;
+        let looked_for = if is_part { &[Demand::Marks][..] } else { &Demand::ALL };
+        search.count.looked_for = looked_for.iter().map(|demand| demand.clause()).collect();
         Ok(report(asked, (size, robots), search.count, found))
     }
 }
@@ -80,7 +82,7 @@ const WHOLE: u8 = PARTS as u8;
 
 /// How far fixes are off at most, in sixteenths of a cell; a fix that is off by a whole one is the only one.
 fn error_parts(asked: &HuntRequest<'_>) -> Result<u8, Diagnostic> {
-    let cells = asked.error_cells.unwrap_or(0.0);
+    let cells = asked.bounds.error_cells.unwrap_or(0.0);
     let parts = cells * f64::from(PARTS);
     let is_all = |whole: &u8| f64::from(*whole).partial_cmp(&parts).is_some_and(Ordering::is_eq);
     (0..=WHOLE).find(is_all).ok_or_else(|| {
@@ -105,7 +107,7 @@ fn drifting(
 ) -> Result<Vec<Finding>, Diagnostic> {
     let asked = search.asked;
     let system = Drift { rule, error, max_obstacles: most_obstacles(asked) };
-    let areas = areas(size);
+    let areas = size.areas();
     for &area in &areas {
         let looked = search.all(&system, system.starts(&[area]), &words(area));
         search.count.is_complete = looked.is_whole;
@@ -128,7 +130,7 @@ fn drifting(
 
 /// Most obstacles that one run meets.
 fn most_obstacles(asked: &HuntRequest<'_>) -> u8 {
-    asked.max_walls.map_or(Small::MOST_CELLS as u8, |walls| walls.min(Small::MOST_CELLS as u32) as u8)
+    asked.bounds.max_walls.map_or(Small::MOST_CELLS as u8, |walls| walls.min(Small::MOST_CELLS as u32) as u8)
 }
 
 fn searched<const ROBOTS: usize>(
@@ -138,9 +140,9 @@ fn searched<const ROBOTS: usize>(
     search: &mut Search<'_>,
 ) -> Result<Vec<Finding>, Diagnostic> {
     let asked = search.asked;
-    let max_losses = asked.max_losses.unwrap_or(0);
+    let max_losses = asked.bounds.max_losses.unwrap_or(0);
     let mut found: Vec<(Demand, Counterexample<ROBOTS>)> = Vec::new();
-    let areas = areas(size);
+    let areas = size.areas();
     for &area in &areas {
         let Some(all) = setting::<ROBOTS>(rule, area) else { continue };
         let all = Setting { max_obstacles: most_obstacles(asked), max_losses, max_wrong, ..all };
@@ -166,7 +168,6 @@ fn searched<const ROBOTS: usize>(
         }
         search.count.covers(area, &areas);
     }
-    found.sort_by_key(|(demand, _)| demand.clause());
     found.iter().map(|(demand, found)| finding(asked, *demand, found)).collect()
 }
 
@@ -208,8 +209,8 @@ fn report(
     found: Vec<Finding>,
 ) -> HuntReport {
     let Count { states, steps, cells, .. } = count;
-    let &HuntRequest { max_walls, error_cells: error, .. } = asked;
-    let max_losses = asked.max_losses.unwrap_or(0);
+    let HuntBounds { max_walls, max_losses, error_cells: error, .. } = asked.bounds;
+    let max_losses = max_losses.unwrap_or(0);
     let lost = if max_losses == 0 { String::new() } else { format!(", at most {max_losses} lost") };
     let walls = max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
     let facts =

@@ -100,7 +100,8 @@ impl Team for FrontierTeam {
 
     fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {
         let is_double = has_double(&frame.cells);
-        let (is_wrong, is_again) = self.robots().map_or((false, false), Explorers::faults);
+        let has = |broken: fn(&Explorers) -> bool| self.robots().is_some_and(broken);
+        let (is_wrong, is_again) = (has(Explorers::has_false_note), has(Explorers::has_entered_again));
         broken([(is_double, ALONE), (is_wrong, MARKS), (is_again, ONCE)])
     }
 

@@ -16,7 +16,7 @@ use tautline_proofs::run::ScriptedRun;
 
 use super::team::{clause_of, reach};
 use crate::explore::hunt::{
-    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, areas,
+    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntBounds, HuntReport, HuntRequest, Hunter, RunSize,
     layout,
 };
 use crate::explore::states::{Count, Search, Small};
@@ -62,17 +62,13 @@ impl Pass {
         let Self { speeds, starts, demand } = self;
         let setting = Setting::new(rule, size)?;
         let walls = u32::from(setting.max_walls);
-        let max_walls = asked.max_walls.map_or(walls, |most| most.min(walls)) as u8;
+        let max_walls = asked.bounds.max_walls.map_or(walls, |most| most.min(walls)) as u8;
         Some(Setting { max_walls, speeds, starts, demand, ..setting })
     }
 }
 
-/// A counterexample, and what was looked for when it was found.
-struct BrokenClause<const ROBOTS: usize> {
-    clause: ClauseId,
-    demand: Demand,
-    found: Counterexample<ROBOTS>,
-}
+/// A clause, and a counterexample to it.
+type BrokenClause<const ROBOTS: usize> = (ClauseId, Counterexample<ROBOTS>);
 
 /// How a lattice is searched: the system whose states are, and the run of the lattice that a run of the system is.
 type How<S, const ROBOTS: usize> =
@@ -91,25 +87,28 @@ impl Hunt for KernelHunt {
         &[Bound::Walls, Bound::Range]
     }
 
-    fn again<'a>(&self, setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
+    fn again(&self, setup: &Setup, bounds: HuntBounds) -> HuntBounds {
         // The first choice says whether robots drive at equal speeds.
         let equal_speeds = setup.choices.first() == Some(&EQUAL_SPEEDS);
-        HuntRequest { range_cells: setup.options.range_cells, equal_speeds, ..asked }
+        HuntBounds { range_cells: setup.options.range_cells, equal_speeds, ..bounds }
     }
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked)?;
-        let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
+        let rule = Kit { reach: reach(asked.bounds.range_cells)?, ..self.0 };
         let mut search = Search::new(asked, hunter);
-        let passes =
-            if asked.equal_speeds { [Pass::EQUAL, Pass::ALL_AT_EQUAL] } else { [Pass::ALL, Pass::EQUAL] };
+        let passes = if asked.bounds.equal_speeds {
+            [Pass::EQUAL, Pass::ALL_AT_EQUAL]
+        } else {
+            [Pass::ALL, Pass::EQUAL]
+        };
         let found = match robots {
             1 => searched(rule, &[Pass::ALL], itself::<1>(), size, &mut search),
             2 => searched(rule, &passes, IN_ONE_IMAGE, size, &mut search),
             _ => searched(rule, &[Pass::ALL, Pass::WHOLE], itself::<3>(), size, &mut search),
         }?;
         let Count { states, steps, cells, .. } = search.count;
-        let &HuntRequest { max_walls, range_cells: range, .. } = asked;
+        let HuntBounds { max_walls, range_cells: range, .. } = asked.bounds;
         let within = max_walls.map(|walls| format!(", at most {}", counted(walls, "wall")));
         let heard = range.map(|cells| format!(", a range of {}", counted(cells, "cell")));
         let within = within.unwrap_or_default() + &heard.unwrap_or_default();
@@ -124,7 +123,7 @@ impl Hunt for KernelHunt {
 fn lattices(size: Size) -> Vec<(i16, i16)> {
     let (columns, rows) = (size.width(), size.height());
     let is_new = |&(width, height): &(i16, i16)| width >= height || height > columns || width > rows;
-    let mut lattices = areas(size);
+    let mut lattices = size.areas();
     lattices.retain(|size| *size != (1, 1) && is_new(size));
     lattices.sort_by_key(|&(width, height)| (width * height, width.min(height)));
     lattices
@@ -150,19 +149,25 @@ fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usi
     search: &mut Search<'_>,
 ) -> Result<Vec<Finding>, Diagnostic> {
     let mut all: Vec<BrokenClause<ROBOTS>> = Vec::new();
+    for pass in passes {
+        let setting = pass.setting::<ROBOTS>(rule, (2, 1), search.asked);
+        let clause = |demand| clause_of(demand, pass.speeds, ROBOTS).as_str();
+        search.count.looked_for.extend(setting.iter().flat_map(Setting::demands).map(clause));
+    }
     let lattices = lattices(size);
     'lattices: for &lattice in &lattices {
         for &pass in passes {
             // Runs at equal speeds are among those at any, if these are searched, too.
+            let contact = clause_of(Demand::Contact, Speeds::Any, ROBOTS);
             let is_kept =
-                !search.asked.equal_speeds && all.iter().all(|broken| broken.demand != Demand::Contact);
+                !search.asked.bounds.equal_speeds && all.iter().all(|(clause, _)| *clause != contact);
             if pass.speeds == Speeds::Equal && is_kept {
                 continue;
             }
             let Some(setting) = pass.setting(rule, lattice, search.asked) else { continue };
             let is_known = |all: &[BrokenClause<ROBOTS>], demand| {
                 let clause = clause_of(demand, pass.speeds, ROBOTS);
-                all.iter().any(|broken| broken.clause == clause)
+                all.iter().any(|(known, _)| *known == clause)
             };
             if pass.demand.is_some_and(|demand| is_known(&all, demand)) {
                 continue;
@@ -184,7 +189,7 @@ fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usi
                         unfold(setting, run)
                     }
                 };
-                all.extend(found.map(|found| BrokenClause { clause, demand, found }));
+                all.extend(found.map(|found| (clause, found)));
             }
             if !search.count.is_complete {
                 break 'lattices;
@@ -192,16 +197,14 @@ fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usi
         }
         search.count.covers(lattice, &lattices);
     }
-    all.sort_by_key(|broken| broken.clause);
     all.iter().map(|broken| finding(search.asked, broken)).collect()
 }
 
 /// A counterexample of a search as one that can be stored.
 fn finding<const ROBOTS: usize>(
     asked: &HuntRequest<'_>,
-    broken: &BrokenClause<ROBOTS>,
+    (clause, found): &BrokenClause<ROBOTS>,
 ) -> Result<Finding, Diagnostic> {
-    let BrokenClause { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
     let Some(ScriptedRun { run, choices }) = found.scripted() else {

@@ -10,7 +10,7 @@ use tautline_proofs::protocol::arrangements;
 use super::super::team::ENDS;
 use super::{bounds, report, sized};
 use crate::explore::by_layout::{Each, FoundBy};
-use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, areas};
+use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest};
 use crate::explore::states::{Count, Small};
 use crate::explore::{ClauseId, Course, Limits, RuleId, Scheme, Setup, Violation, team};
 use tautline_grids::layout::Layout;
@@ -29,13 +29,13 @@ impl Each for RivalHunt {
 
     fn layouts(&self, asked: &HuntRequest<'_>) -> Result<Layouts, Diagnostic> {
         let (size, robots) = bounds(asked, Small::MOST_CELLS as u64)?;
-        let &HuntRequest { scheme, rule, max_walls, .. } = asked;
+        let &HuntRequest { scheme, rule, .. } = asked;
         Ok(Layouts {
             scheme,
             rule,
             robots: robots as usize,
-            max_walls: max_walls.unwrap_or(u32::MAX),
-            areas: areas(size),
+            max_walls: asked.bounds.max_walls.unwrap_or(u32::MAX),
+            areas: size.areas(),
         })
     }
 
@@ -46,11 +46,12 @@ impl Each for RivalHunt {
     fn report(
         &self,
         asked: &HuntRequest<'_>,
-        (count, mut found): FoundBy<Self>,
+        (count, found): FoundBy<Self>,
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
-        found.sort_by_key(|finding| finding.clause);
-        Ok(report(asked, bounds(asked, Small::MOST_CELLS as u64)?, Count { is_complete, ..count }, found))
+        let bounds = bounds(asked, Small::MOST_CELLS as u64)?;
+        let looked_for = asked.scheme.clauses.iter().map(|clause| clause.id.as_str()).collect();
+        Ok(report(asked, bounds, Count { looked_for, is_complete, ..count }, found))
     }
 }
 
