@@ -28,12 +28,13 @@ use super::{evidence, progress, ros_map};
 use crate::value_parser;
 use tautline_grids::chance::Probability;
 use tautline_sim::counterexample::refutation;
+use tautline_sim::draw::story::words_of;
 use tautline_sim::draw::{page, svg};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    ExplorationRequest, Knowledge, Limits, Look, Milestone, OnViolation, Play, Profile, Reach, Report,
-    RuleId, Scheme, Senses, Setup, StopReason, Violation, explore, team,
+    ExplorationRequest, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Reach, Report, RuleId,
+    Scheme, Senses, Setup, StopReason, Violation, explore, team,
 };
 use tautline_sim::failures::Failures;
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
@@ -531,11 +532,8 @@ fn violations(run: &dyn Play, report: &Report) -> String {
     listed.extend(again);
     listed.truncate(LISTED);
     listed.sort_by_key(|&(place, _)| place);
-    // The sentence of a rule of one's own says what is so where it is kept.
-    let says = if matches!(run.setup().scheme.look, Look::Own) { "; it demands:" } else { ":" };
     for (_, &Violation { clause, step }) in listed {
-        let sentence = run.sentence(clause).map_or_else(String::new, |sentence| format!("{says} {sentence}"));
-        let _ = writeln!(text, "{clause} is broken in team move {step}{sentence}");
+        let _ = writeln!(text, "{clause} is broken in team move {step}{}", words_of(run, clause));
     }
     match report.violations.len() {
         0 => {

@@ -14,15 +14,16 @@ use super::{Pose, agents, first_drawn, legend, outcome, team_move};
 use crate::explore::{ClauseId, Look, OnViolation, Play, Report, StopReason, Survey, TeamMove, Violation};
 use tautline_grids::layout::Layout;
 
-/// The id of a clause, with its sentence where `run` knows it. That of one's own says what is so where it is kept.
-fn with_sentence(run: &dyn Play, id: ClauseId) -> String {
+/// The words behind the id of a clause: its sentence, where `run` knows it. That of a rule of one's own says what is so
+/// where it is kept.
+pub fn words_of(run: &dyn Play, id: ClauseId) -> String {
     let says = if matches!(run.setup().scheme.look, Look::Own) { "; it demands:" } else { ":" };
-    run.sentence(id).map_or_else(|| format!("{id}."), |sentence| format!("{id}{says} {sentence}"))
+    run.sentence(id).map_or_else(|| ".".to_owned(), |sentence| format!("{says} {sentence}"))
 }
 
 /// The words that begin the story of a run whose end breaks `clause` after team move number `step`.
 fn end_breaks(run: &dyn Play, report: &Report, step: u32, clause: ClauseId) -> String {
-    let broken = with_sentence(run, clause);
+    let broken = format!("{clause}{}", words_of(run, clause));
     if report.stopped != StopReason::Endless {
         return format!("The end after team move {step} breaks {broken}");
     }
@@ -41,7 +42,7 @@ pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
     let mut text = String::new();
     for &clause in made.broken {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "Team move {} breaks {}", made.step, with_sentence(run, clause));
+        let _ = writeln!(text, "Team move {} breaks {clause}{}", made.step, words_of(run, clause));
     }
     text.push('\n');
     let look = run.setup().scheme.look;
