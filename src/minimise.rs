@@ -275,7 +275,7 @@ fn tell(name: &str, minimised: &MinimiseJson) -> String {
         ("missed", before.missed.to_string(), after.missed.to_string()),
         ("team moves", before.steps.to_string(), after.steps.to_string()),
     ];
-    let rows = rows.into_iter().filter(|(what, ..)| *what != "missed" || before.missed > 0);
+    let rows = rows.into_iter().filter(|(what, ..)| *what != "missed" || before.missed + after.missed > 0);
     for (what, before, after) in rows {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{what:13}{before:>8}{after:>8}");
@@ -288,7 +288,7 @@ fn tell(name: &str, minimised: &MinimiseJson) -> String {
             counted(*runs, "hunt")
         )
     } else {
-        let sensor = if before.missed > 0 { ", and no missed sensor" } else { "" };
+        let sensor = if before.missed + after.missed > 0 { ", and no missed sensor" } else { "" };
         writeln!(
             text,
             "\n{parts}{sensor} can go: without any one of them {clause} is not broken ({} tried).",

@@ -117,7 +117,7 @@ fn square(robots: usize) -> (Area, Cell) {
 fn a_tree_is_faster_than_a_chain_in_three_cells_in_a_row() {
     let (mut compared, mut faster) = (0, Vec::new());
     for (cells, robots) in (1..=9).flat_map(|cells| [2, 3, 4].map(|robots| (cells, robots))) {
-        for area in areas(cells) {
+        for area in areas_of(cells) {
             for base in area.cells().filter(|_| cells < 9 || robots < 4) {
                 let Some(chain) = of_chain(area, base, robots) else { continue };
                 let tree = Team { area, base, movers: robots - 1, links: Circle::SAFE }.fewest();

@@ -216,7 +216,7 @@ fn a_plan_with_numbers_that_contradict_each_other_is_refused_and_how_many_shards
         write(folder, "plan.json", sealed(&plan.replace(from, to)));
     };
     for (work, from, to, words) in [
-        (&layouts[..], "\"how\":null", "\"how\":2147483648", "plan anew"),
+        (&layouts[..], "},null]", "},2147483648]", "plan anew"),
         (&table, "\"layouts\":2", "\"layouts\":1000000", "14 jobs are dealt out, and its settings give 7000"),
         (&table, "\"jobs\":14", "\"jobs\":15", "15 jobs are dealt out, and its settings give 14"),
         (&table, "\"layouts\":2", "\"layouts\":0", "plan.json: its settings have --runs 0: "),

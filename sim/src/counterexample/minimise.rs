@@ -12,9 +12,9 @@
 //! - *A row*: likewise, south for east and north for west.
 //! - *A blocked cell*: it is free then. Walls beside it stay.
 //! - *A wall* inside the rim.
-//! - *A missed sensor*: one that is named by its number, or that chance has drawn before the clause was broken. No
-//!   other one is missed then; if that does not break the clause, as where agents go on since one may still be missed,
-//!   what is drawn stays left to chance.
+//! - *A missed sensor* that is named by its number. Those that chance has drawn are named once nothing else can go, and
+//!   then no other one is missed; if that does not break the clause, as where agents go on since one may still be
+//!   missed, they stay left to chance.
 //!
 //! A start of a robot's own goes with the column or row in which it is, as the base does, and with its robot.
 //!
@@ -37,7 +37,7 @@ use tautline_io::diagnostic::Halt;
 use self::minimal::first_violation;
 pub use self::minimal::{Failure, Minimal, Refusal};
 pub use self::shrink::{Breaks, BrokenClause, Case, Extent, Obstacles, Progress, Shrinkage, shrink};
-use crate::explore::{ClauseId, Limits, OnViolation, Report, Setup, TeamMove, Violation, explore, run, team};
+use crate::explore::{ClauseId, Limits, OnViolation, Setup, TeamMove, Violation, run, team};
 use tautline_grids::chance::Probability;
 use tautline_grids::layout::Layout;
 
@@ -58,8 +58,7 @@ pub fn minimise(
     let starts =
         |robots, layout: &Layout, base| setup.scheme.default_starts(setup.rule, layout, base, robots);
     let is_default = setup.starts == starts(setup.robots, &setup.layout, setup.base);
-    let extent = |setup: &Setup, steps| Extent::new(setup.robots, &setup.layout, setup.missed.len(), steps);
-    let smallest = extent(setup, 0);
+    let mut before = Extent::new(setup.robots, &setup.layout, setup.missed.len(), 0);
     let violation = match (setup.limits.violation, asked) {
         (OnViolation::GoOn, Some(asked)) => OnViolation::StopAt(asked),
         (OnViolation::GoOn, None) => OnViolation::Stop,
@@ -67,17 +66,11 @@ pub fn minimise(
     };
     let first = Setup { limits: Limits { violation, ..setup.limits }, ..setup.clone() };
     let mut played = team(&first).map_err(Halt::from)?;
-    let mut watch_first = |_: &TeamMove<'_>| watch(Progress { runs: 0, smallest });
+    let mut watch_first = |_: &TeamMove<'_>| watch(Progress { runs: 0, smallest: before });
     let report = run(&mut *played, &first.layout, first.limits, &mut watch_first)?;
     let Violation { clause, step } = first_violation(&report, asked)?;
     let limits = Limits::stopping_at(Some(clause));
-    // Sensors that chance has missed are parts as those that are named, unless the run needs that more may be missed.
-    let missed = played.misses().to_vec();
-    let named = Setup { miss: Probability::NEVER, missed, limits, ..first.clone() };
-    let is_broken = |report: &Report| report.violations.iter().any(|broken| broken.clause == clause);
-    let is_alike = setup.miss.is_never() || is_broken(&explore(&named, &mut watch_first)?);
-    let first = if is_alike { named } else { first };
-    let before = extent(&first, step);
+    (before.steps, before.missed) = (step, played.misses().len());
     let Setup { robots, layout, base, starts: own, missed, .. } = first.clone();
     let case = Case { robots, layout, base, starts: own.filter(|_| !is_default).unwrap_or_default(), missed };
     let made = |Case { robots, layout, base, starts: own, missed }: Case| {
@@ -95,8 +88,21 @@ pub fn minimise(
             watch(progress)
         })?;
         let met = Some(Obstacles { area: report.chart.area(), edges });
-        Ok(is_broken(&report).then_some(BrokenClause { steps: report.steps, met }))
+        let is_broken = report.violations.iter().any(|broken| broken.clause == clause);
+        Ok(is_broken.then_some(BrokenClause { steps: report.steps, met }))
     })?;
     let Shrinkage { case, extent: after, runs } = shrunk;
-    Ok(Minimal { setup: made(case), clause, before, after, runs })
+    let minimal = Minimal { setup: made(case), clause, before, after, runs };
+    if setup.miss.is_never() {
+        return Ok(minimal);
+    }
+    // Sensors that chance has missed become named ones, which are parts, too.
+    let mut drawn = team(&minimal.setup).map_err(Halt::from)?;
+    run(&mut *drawn, &minimal.setup.layout, limits, &mut |_| watch(Progress { runs, smallest: after }))?;
+    let (miss, missed) = (Probability::NEVER, drawn.misses().to_vec());
+    match minimise(&Setup { miss, missed, ..minimal.setup.clone() }, Some(clause), watch) {
+        Ok(named) => Ok(Minimal { before, runs: runs + named.runs, ..named }),
+        Err(Failure::Refused(_)) => Ok(minimal),
+        Err(halted) => Err(halted),
+    }
 }

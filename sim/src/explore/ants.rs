@@ -7,6 +7,9 @@ use super::agents::AGENTS;
 use super::hunt_states::crew;
 use super::{Knowledge, Profile, Rule, RuleId};
 
+const BESIDE: Ants = Ants::Published(Beside);
+const COUNTED: Ants = Ants::Published(Counted);
+
 /// Agents on a sensor floor that go where they have been least; they never know that they are done.
 pub static ANTS: Profile = Profile {
     name: "ants",
@@ -14,12 +17,8 @@ pub static ANTS: Profile = Profile {
     rules: &[
         crew!(Rule::published, Ants::PUBLISHED),
         crew!(Rule::repaired, Ants::Repaired),
-        crew!(
-            RuleId::new("beside"),
-            "A missed sensor stays beside the new one; the higher is read",
-            Ants::Published(Beside)
-        ),
-        crew!(RuleId::new("counted"), "A new sensor counts on from a missed one", Ants::Published(Counted)),
+        crew!("beside", "A missed sensor stays beside the new one; the higher is read", BESIDE),
+        crew!("counted", "A new sensor counts on from a missed one", COUNTED),
     ],
     knowledge: Some(Knowledge::None),
     ..AGENTS

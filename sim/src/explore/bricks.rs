@@ -23,10 +23,10 @@ pub static BRICKS: Profile = Profile {
     rules: &[
         switched_crew!(Rule::published; Bricks::PUBLISHED),
         switched_crew!(Rule::repaired; Bricks::REPAIRED),
-        switched_crew!(RuleId::new("alone"), "As published; no cell is marked in which another agent is"; ALONE),
-        switched_crew!(RuleId::new("beside"), "As published; a missed sensor stays beside the new one"; BESIDE),
-        switched_crew!(RuleId::new("counted"), "As published; a new sensor takes over what a missed one says"; COUNTED),
-        switched_crew!(RuleId::new("tree"), "Trees close the loops in place of laps"; Trees::TREE),
+        switched_crew!("alone", "As published; no cell is marked in which another agent is"; ALONE),
+        switched_crew!("beside", "As published; a missed sensor stays beside the new one"; BESIDE),
+        switched_crew!("counted", "As published; a new sensor takes over what a missed one says"; COUNTED),
+        switched_crew!("tree", "Trees close the loops in place of laps"; Trees::TREE),
     ],
     ..MARKING
 };

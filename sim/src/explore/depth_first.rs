@@ -22,12 +22,8 @@ pub static HELPERS: Profile = Profile {
     about: "Depth first search by agents on a sensor floor that share the trees that they meet",
     rules: &[
         switched_crew!(Rule::repaired; Trees::ROBUST),
-        switched_crew!(RuleId::new("trusting"), "As if no sensor were ever missed"; Trees::HELPERS),
-        switched_crew!(
-            RuleId::new("doubting"),
-            "Places sensors unasked, after three scans in a row that miss one";
-            Trees::DOUBTING
-        ),
+        switched_crew!("trusting", "As if no sensor were ever missed"; Trees::HELPERS),
+        switched_crew!("doubting", "Places sensors unasked, after three scans in a row that miss one"; Trees::DOUBTING),
     ],
     ..MARKING
 };

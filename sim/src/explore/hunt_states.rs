@@ -32,7 +32,7 @@ macro_rules! crew {
             .hunted(&$crate::explore::hunt_states::Traps($crew))
     };
     ($name:expr, $about:expr, $crew:expr) => {
-        Rule::new($name, $about, |setup| Ok($crate::explore::agents::start(setup, $crew)))
+        Rule::new(RuleId::new($name), $about, |setup| Ok($crate::explore::agents::start(setup, $crew)))
             .hunted(&$crate::explore::hunt_states::Traps($crew))
     };
 }
