@@ -14,6 +14,14 @@ use crate::engine::outcomes;
 use crate::floor::plans::{FloorPlan, blocked};
 use crate::floor::small::{Misses, Sensors, Small, StateOf};
 
+/// The neighbours among which agents choose where they see unexplored and explored ones.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Among {
+    Unexplored,
+    Explored,
+    Both,
+}
+
 /// A game on one plan.
 #[derive(Clone, Copy)]
 struct Game {
@@ -23,6 +31,7 @@ struct Game {
     most: u8,
     /// The cells whose sensors are missed by every scan from elsewhere.
     dark: u16,
+    among: Among,
 }
 
 /// A state: the sensors, the agents with whether they are done, and how many sensors were missed.
@@ -51,7 +60,7 @@ type Moves = Vec<Vec<Vec<usize>>>;
 
 impl Game {
     const fn new(plan: FloorPlan, rule: Rule) -> Self {
-        Self { plan, rule, most: 0, dark: 0 }
+        Self { plan, rule, most: 0, dark: 0, among: Among::Unexplored }
     }
 
     fn start(&self, cells: &[Cell]) -> State {
@@ -77,12 +86,17 @@ impl Game {
         awake.flat_map(of).collect()
     }
 
-    /// The states among which an agent chooses after a scan: it goes to any unexplored neighbour, or, if it sees none,
-    /// to any explored one. All else is the kernel's.
+    /// The states among which an agent chooses after a scan: it goes to any unexplored or explored neighbour, of those
+    /// that come first if it sees some. All else is the kernel's.
     fn choices(&self, state: &State, (agent, scan, misses): (usize, Scan, u8)) -> Vec<State> {
         let decided = Agent::new(agent as u8).decide(self.rule, &scan);
         let (new, old) = (scan.reachable().and(scan.unexplored), scan.reachable().and(scan.closing.not()));
-        let among = if new == Ring::default() { old } else { new };
+        let first = match self.among {
+            Among::Unexplored => new,
+            Among::Explored => old,
+            Among::Both => new.or(old),
+        };
+        let among = if first == Ring::default() { new.or(old) } else { first };
         let goes = |side| Next::Goes(side, scan.entry(side, self.rule.replaced), scan.claim(side));
         let mut nexts: Vec<Next> = COMPASS.into_iter().filter(|&side| among.has(side)).map(goes).collect();
         if nexts.is_empty() {
@@ -208,5 +222,32 @@ fn whichever_next_cell_agents_choose_the_clauses_are_broken() {
     for replaced in [Lost, Beside, Counted] {
         let corridor = Game { dark: 0b10001, ..Game::new(open(5, 1), replacing(replaced)) };
         assert_eq!(broken(&corridor, 1), ["BRICKS-5", "BRICKS-6"], "{replaced:?}");
+    }
+}
+
+/// Agents that may go to an explored neighbour where they see an unexplored one lose in larger areas.
+#[test]
+fn agents_that_may_turn_back_before_all_is_explored_do_not_keep_the_clauses() {
+    let game = |width, height, rule| Game { among: Among::Both, ..Game::new(open(width, height), rule) };
+    assert_eq!(broken(&game(3, 1, Rule::PUBLISHED), 2), ["BRICKS-4"]);
+    assert_eq!(broken(&game(3, 3, Rule::PUBLISHED), 1), ["BRICKS-6"]);
+    for replaced in [Lost, Beside, Counted] {
+        let room = Game { most: 3, ..game(3, 3, replacing(replaced)) };
+        assert_eq!(broken(&room, 1), ["BRICKS-4", "BRICKS-5", "BRICKS-6"], "{replaced:?}");
+        for (most, width, height) in [(2, 3, 3), (6, 2, 2), (6, 3, 2), (6, 5, 1)] {
+            let broken = broken(&Game { most, ..game(width, height, replacing(replaced)) }, 1);
+            assert!(
+                broken.iter().all(|&clause| clause == "BRICKS-6" && (width, height) == (3, 3)),
+                "{broken:?}"
+            );
+        }
+        // In the dark those alone who go to explored cells first leave a cell out.
+        let corridor = Game { dark: 0b10001, ..game(5, 1, replacing(replaced)) };
+        assert_eq!(broken(&corridor, 1), ["BRICKS-6"], "{replaced:?}");
+        assert_eq!(
+            broken(&Game { among: Among::Explored, ..corridor }, 1),
+            ["BRICKS-5", "BRICKS-6"],
+            "{replaced:?}"
+        );
     }
 }
