@@ -175,8 +175,8 @@ mod tests {
         }
     }
 
-    /// Where each scan may miss any sensor (row 90 of the readings in `SPEC.md`), all are seen but one beside the ant, whose
-    /// cell it enters then: so it can be led to any cell, until it enters one that counts nothing.
+    /// Where each scan may miss any sensor (row 90 of the readings in `SPEC.md`), all are seen but one beside the ant,
+    /// whose cell it enters then: so it can be led to any cell, until it enters one that counts nothing.
     #[test]
     fn an_ant_is_led_to_any_cell_beside_it_by_a_sensor_that_it_misses_or_explores_another_one() {
         for subject in [LOSING, STAYING, COUNTING] {

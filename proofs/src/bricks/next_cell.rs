@@ -90,13 +90,13 @@ impl Game {
     /// that come first if it sees some. All else is the kernel's.
     fn choices(&self, state: &State, (agent, scan, misses): (usize, Scan, u8)) -> Vec<State> {
         let decided = Agent::new(agent as u8).decide(self.rule, &scan);
-        let (new, old) = (scan.reachable().and(scan.unexplored), scan.reachable().and(scan.closing.not()));
+        let (new, all) = (scan.reachable().and(scan.unexplored), scan.reachable().and(scan.closing.not()));
         let first = match self.among {
             Among::Unexplored => new,
-            Among::Explored => old,
-            Among::Both => new.or(old),
+            Among::Explored => all.and(new.not()),
+            Among::Both => all,
         };
-        let among = if first == Ring::default() { new.or(old) } else { first };
+        let among = if first == Ring::default() { all } else { first };
         let goes = |side| Next::Goes(side, scan.entry(side, self.rule.replaced), scan.claim(side));
         let mut nexts: Vec<Next> = COMPASS.into_iter().filter(|&side| among.has(side)).map(goes).collect();
         if nexts.is_empty() {
@@ -241,13 +241,22 @@ fn agents_that_may_turn_back_before_all_is_explored_do_not_keep_the_clauses() {
                 "{broken:?}"
             );
         }
-        // In the dark those alone who go to explored cells first leave a cell out.
-        let corridor = Game { dark: 0b10001, ..game(5, 1, replacing(replaced)) };
-        assert_eq!(broken(&corridor, 1), ["BRICKS-6"], "{replaced:?}");
-        assert_eq!(
-            broken(&Game { among: Among::Explored, ..corridor }, 1),
-            ["BRICKS-5", "BRICKS-6"],
-            "{replaced:?}"
-        );
+        // In the dark they explore everything, and need not end.
+        for (width, height) in [(5, 1), (2, 2), (3, 3)] {
+            for plan in blocked(width, height) {
+                let dark = (0..=plan.free).filter(|dark| dark & !plan.free == 0 && dark.count_ones() <= 2);
+                for dark in dark {
+                    let game = Game { among: Among::Both, dark, ..Game::new(plan, replacing(replaced)) };
+                    assert!(broken(&game, 1).iter().all(|&clause| clause == "BRICKS-6"), "{replaced:?}");
+                }
+            }
+        }
+        let square = Game { dark: 0b11, ..game(2, 2, replacing(replaced)) };
+        assert_eq!(broken(&square, 1), ["BRICKS-6"], "{replaced:?}");
+        // Those who go back first go to and fro in a corridor.
+        for dark in [0, 0b10001] {
+            let corridor = Game { among: Among::Explored, dark, ..game(5, 1, replacing(replaced)) };
+            assert_eq!(broken(&corridor, 1), ["BRICKS-5", "BRICKS-6"], "{replaced:?}");
+        }
     }
 }
