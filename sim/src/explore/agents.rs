@@ -85,7 +85,9 @@ impl Oracle for Misses {
     fn mishap(&mut self) -> bool {
         self.asked = self.asked.saturating_add(1);
         let is_drawn = !self.chance.is_never() && self.chance.happens(&mut self.dice);
-        let place = self.written.binary_search(&self.asked);
+        // What is drawn comes last, but for what is named for later.
+        let is_last = self.written.last() < Some(&self.asked);
+        let place = if is_last { Err(self.written.len()) } else { self.written.binary_search(&self.asked) };
         if let (true, Err(place)) = (is_drawn, place) {
             self.written.insert(place, self.asked);
         }
@@ -235,8 +237,7 @@ impl<S: Scheme> Agents<S> {
             let missed = unseen(&self.floor, &view, cell).next();
             (misses.asked, missed)
         };
-        let (asked, _) = look(Vec::new());
-        (1..=asked).map(|question| look(vec![question]).1.unwrap_or(cell)).collect()
+        (1..=look(Vec::new()).0).map(|question| look(vec![question]).1.unwrap_or(cell)).collect()
     }
 
     /// How long the slowest agent has scanned and gone.
