@@ -144,7 +144,8 @@ fn the_smallest_trap_has_nine_cells_and_one_missed_sensor() {
     }
 }
 
-/// Row 90 of the readings in `SPEC.md`: the run is finite, so that it has a probability where each scan may miss any sensor.
+/// Row 90 of the readings in `SPEC.md`: the run is finite, so that it has a probability where each scan may miss any
+/// sensor.
 #[test]
 fn whatever_becomes_of_a_missed_sensor_one_agent_is_done_too_early_in_the_same_run() {
     for replaced in [SensorFate::Lost, SensorFate::Beside, SensorFate::Counted] {

@@ -476,16 +476,17 @@ impl Setting {
         let other = state.other(robot)?;
         let far = self.joint_way(state, places);
         let is_due = |side: u8| {
-            let to = self.beyond(at, side).filter(|&to| is_old(side) && !other.has(to))?;
-            let is_near = other.ends().iter().all(|&end| self.near(at, end) && self.near(to, end));
+            let Some(to) = self.beyond(at, side).filter(|&to| is_old(side) && !other.has(to)) else {
+                return false;
+            };
             let mut after = places;
             after[robot] = to;
-            let left = self.joint_way(state, after).filter(|_| is_near)?;
-            (Some(left + 1) == far).then_some(())
+            other.ends().iter().all(|&end| self.near(at, end) && self.near(to, end))
+                && self.joint_way(state, after).is_some_and(|left| Some(left + 1) == far)
         };
-        let sides = || (0..4_u8).map(|side| (is_old(side) && looks.contains(&side), is_due(side).is_some()));
-        let takes_old = sides().any(|(is_taken, _)| is_taken);
-        (takes_old && sides().any(|(is_taken, is_due)| is_taken != is_due)).then_some(Demand::AnyShortest)
+        let taken: Vec<u8> = (0..4).filter(|side| is_old(*side) && looks.contains(side)).collect();
+        let is_other = !taken.is_empty() && !(0..4).filter(|&side| is_due(side)).eq(taken);
+        is_other.then_some(Demand::AnyShortest)
     }
 
     fn drives(&self, state: &State, robot: usize, side: u8) -> Step {
