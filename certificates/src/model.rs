@@ -86,13 +86,13 @@ impl Answers {
         Self { given: Vec::new(), asked: QuestionCounts { answers: 0, mishaps: 0, events: 0 }, most_mishaps }
     }
 
-    /// The next combination, which begins with as many of these answers as are `kept`; the place of the answer that is
-    /// another one, if there is one. It is asked for from the first answer on.
-    pub(crate) fn advance(&mut self, kept: usize) -> Option<usize> {
+    /// The next combination, and the place of the answer that is another one, if there is one. It is asked for from the
+    /// first answer on.
+    pub(crate) fn advance(&mut self) -> Option<usize> {
         self.given.truncate(self.asked.answers);
         self.asked = QuestionCounts::default();
-        while self.given.len() > kept {
-            if let Some((answer, of)) = self.given.pop().filter(|(answer, of)| answer + 1 < *of) {
+        while let Some((answer, of)) = self.given.pop() {
+            if answer + 1 < of {
                 self.given.push((answer + 1, of));
                 return Some(self.given.len() - 1);
             }

@@ -135,8 +135,7 @@ struct Walk<'a, M: Runs> {
     log: Vec<u8>,
     steps: u32,
     answers: Answers,
-    /// The number of answers with which all its runs begin.
-    kept: usize,
+    /// The steps since its runs begin that can come out otherwise: an earlier one has no fork here to go back to.
     forks: Vec<Fork<M::State, M::Plan>>,
     /// Steps since the last answer that says more than that there is no mishap, and at how many of them the mark is set
     /// next: at powers of two, as Brent's search for cycles does.
@@ -155,7 +154,6 @@ impl<'a, M: Runs> Walk<'a, M> {
             log: Vec::new(),
             steps: 0,
             answers: Answers::with_mishaps(most_mishaps),
-            kept: 0,
             forks: Vec::new(),
             moved: (0, WATCHED),
             mark: None,
@@ -170,7 +168,6 @@ impl<'a, M: Runs> Walk<'a, M> {
             log: self.log.clone(),
             steps: self.steps,
             answers: self.answers.clone(),
-            kept: self.answers.asked.answers,
             moved: self.moved,
             mark: self.mark.clone(),
             ..Self::new(self.model)
@@ -254,7 +251,7 @@ impl<'a, M: Runs> Walk<'a, M> {
 
     /// Goes back to the last fork that can come out otherwise, as it was planned; false if there is none.
     fn back(&mut self) -> bool {
-        let Some(changed) = self.answers.advance(self.kept) else { return false };
+        let Some(changed) = self.answers.advance() else { return false };
         while self.forks.pop_if(|fork| fork.asked.answers > changed).is_some() {}
         let Some(Fork { ready, steps, sent, asked }) = self.forks.last() else { return false };
         self.state = ready.planned.clone();

@@ -5,7 +5,7 @@
 use std::hash::Hasher;
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering::Relaxed;
-use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64};
+use std::sync::atomic::{AtomicU16, AtomicU64};
 
 use rayon::slice::ParallelSliceMut;
 use siphasher::sip128::SipHasher13;
@@ -110,19 +110,16 @@ impl DigestCell {
 
 /// The states of a rank between which steps are bound to be made.
 struct Class {
-    /// Who acts in these steps, and [`Class::HAS_STEPS`].
-    acting: AtomicU32,
-    /// Who is awake in all states from which they are made.
+    /// Who acts in these steps.
+    acting: AtomicU16,
+    /// Who is awake in all states from which they are made; everybody, if there is none.
     awake: AtomicU16,
 }
 
 impl Class {
-    const HAS_STEPS: u32 = 1 << u16::BITS;
-
     /// Whether everybody acts who is awake throughout.
     fn is_fair(&self) -> bool {
-        let acting = self.acting.load(Relaxed);
-        acting & Self::HAS_STEPS != 0 && self.awake.load(Relaxed) & !(acting as u16) == 0
+        self.awake.load(Relaxed) & !self.acting.load(Relaxed) == 0
     }
 }
 
@@ -179,7 +176,7 @@ impl<S> Scratch<S> {
 impl<'a, M: Model> Checker<'a, M> {
     fn new(model: &'a M, section: &'a [u8], key: u128) -> Result<Self, Refusal> {
         let trees = Trees::read(section)?;
-        let class = |_: &u32| Class { acting: AtomicU32::new(0), awake: AtomicU16::new(u16::MAX) };
+        let class = |_: &u32| Class { acting: AtomicU16::new(0), awake: AtomicU16::new(u16::MAX) };
         Ok(Self {
             model,
             section,
@@ -320,7 +317,7 @@ impl<'a, M: Model> Checker<'a, M> {
                     child += self.trees.size[child as usize];
                 }
                 step += 1;
-                if answers.advance(0).is_none() {
+                if answers.advance().is_none() {
                     break;
                 }
             }
@@ -351,7 +348,7 @@ impl<'a, M: Model> Checker<'a, M> {
                 return None;
             }
             let class = &classes[from as usize];
-            class.acting.fetch_or(Class::HAS_STEPS | u32::from(acting), Relaxed);
+            class.acting.fetch_or(acting, Relaxed);
             class.awake.fetch_and(self.model.awake(state), Relaxed);
         }
         Some(())

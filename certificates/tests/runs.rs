@@ -6,6 +6,8 @@ use std::ops::ControlFlow;
 use tautline_certificates::{Counts, Ready, Refusal, Runs, check_runs, put};
 use tautline_kernel::choice::Oracle;
 
+use crate::drawn;
+
 /// The end of a run, behind the last door.
 #[derive(Clone, Copy, PartialEq)]
 enum Behind {
@@ -180,17 +182,85 @@ fn each_other_number_is_refused() {
     assert_eq!(checked(CORRIDOR, &[]), Err(Refusal::Longest(12)));
     assert_eq!(checked(CORRIDOR, &[&right[..], &[0]].concat()), Err(Refusal::Malformed(9)));
     assert_eq!(check_runs(&CORRIDOR, &[12, 0x80]), Err(Refusal::Malformed(2)));
+    assert_eq!(check_runs(&CORRIDOR, &[12, 0x80, 0, 5, 7]), Err(Refusal::Malformed(3)));
+}
+
+/// A robot that goes round on so many cells, and picks a number or asks whether it slips in some of them.
+#[derive(Clone, Copy)]
+struct Circle {
+    cells: u32,
+    picks: bool,
+    slips_from: u32,
+}
+
+impl Runs for Circle {
+    type State = u32;
+    type Plan = ();
+
+    fn start(&self) -> u32 {
+        0
+    }
+
+    fn most_mishaps(&self) -> u32 {
+        1
+    }
+
+    fn longest_run(&self) -> u32 {
+        300
+    }
+
+    fn plan(&self, _: &mut u32, _: &[u8]) -> Option<()> {
+        Some(())
+    }
+
+    fn step(
+        &self,
+        _: &Ready<u32, ()>,
+        state: &mut u32,
+        _: &mut Vec<u8>,
+        answers: &mut impl Oracle,
+    ) -> Option<String> {
+        if self.picks && *state == 0 {
+            answers.pick(2);
+        }
+        // A slip costs it nothing but is an event.
+        let _ = *state >= self.slips_from && answers.mishap();
+        *state = (*state + 1) % self.cells;
+        None
+    }
+
+    fn broken_at_end(&self, _: &u32, _: &[u8]) -> Option<String> {
+        None
+    }
+
+    fn recurs(&self, then: &u32, _: usize, now: &u32, _: &[u8]) -> ControlFlow<Option<String>> {
+        if then == now { ControlFlow::Break(None) } else { ControlFlow::Continue(()) }
+    }
+}
+
+#[test]
+fn a_run_is_over_where_it_comes_back_to_a_mark_of_which_there_are_ever_fewer() {
+    let longest = |circle: Circle| match check_runs(&circle, &[0]) {
+        Err(Refusal::Longest(steps)) => steps,
+        other => panic!("{other:?}"),
+    };
+    let circle = Circle { cells: 20, picks: false, slips_from: u32::MAX };
+    // Marks are set at 32 and 64 steps: the first one is met again by up to 31 cells, the second by more.
+    for (cells, steps) in [(20, 52), (31, 63), (40, 104), (63, 127)] {
+        assert_eq!(longest(Circle { cells, ..circle }), steps, "{cells} cells");
+    }
+    // Who picks a number in every round may come out otherwise in every round.
+    let refusal = check_runs(&Circle { picks: true, ..circle }, &[0]);
+    assert!(matches!(refusal, Err(Refusal::Long(_))), "{refusal:?}");
+    // The tenth question, at 54 steps, parts the runs, which have the mark of 32 still. The last one is at 62: who
+    // slips then sets a mark at 94.
+    assert_eq!(longest(Circle { cells: 31, slips_from: 22, ..circle }), 125);
 }
 
 /// Runs whose steps are drawn from what was answered: each asks several questions, some after a mishap alone.
 struct RandomRuns {
     seed: u64,
     most: u32,
-}
-
-fn drawn(seed: u64, number: u64) -> u64 {
-    let mixed = (seed ^ number).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    (mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 20
 }
 
 impl RandomRuns {

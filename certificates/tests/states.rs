@@ -1,9 +1,10 @@
 //! The checker of states by itself, over a model of a few numbers whose section is written by hand.
 
+use std::collections::BTreeSet;
 use std::hash::Hasher;
 
 use tautline_certificates::{
-    Counts, Fault, Header, Model, Refusal, Step, check_states, digest, put, read, write,
+    Counts, Fault, Header, Model, Refusal, Step, check_states, digest, put, read, take, write,
 };
 use tautline_kernel::choice::Oracle;
 
@@ -130,9 +131,103 @@ fn a_section_without_a_state_a_step_or_a_rank_is_refused() {
     let unranked = [0, 3, 0, 0, 1, 1, 0, 3, 2, 2, 3, 1, 0, 0];
     assert_eq!(checked(WALK, &section(&unranked)), Err(Refusal::Owes(0)));
     assert_eq!(checked(WALK, &[]), Err(Refusal::Malformed(0)));
+    // A rank is one of as many as there are states.
+    assert_eq!(checked(WALK, &with(&[(17, 3)])), Ok(Counts { states: 4, steps: 5, ends: 1 }));
+    assert_eq!(checked(WALK, &with(&[(17, 4)])), Err(Refusal::Malformed(18)));
+    let fewer = [&[1, 2], &SECTION[2..4], &SECTION[5..]].concat();
+    assert_eq!(checked(WALK, &section(&fewer)), Err(Refusal::Starts(3)));
     // A million starts, and more states than there are atoms, of which none is there.
     assert_eq!(checked(WALK, &section(&[1, 1_000_000])), Err(Refusal::Malformed(4)));
     assert_eq!(checked(WALK, &section(&[1, u64::MAX, 0])), Err(Refusal::Malformed(12)));
+}
+
+/// A system in which nothing begins.
+struct Nothing;
+
+impl Model for Nothing {
+    type State = u8;
+    type Plan = ();
+
+    fn starts(&self) -> Vec<u8> {
+        Vec::new()
+    }
+
+    fn plan(&self, _: &mut u8) -> Option<()> {
+        None
+    }
+
+    fn step(&self, &to: &u8, _: &u8, (): &(), _: &mut impl Oracle) -> Step<u8> {
+        Step { to, acting: None, breaks: None }
+    }
+
+    fn broken_at_end(&self, _: &u8) -> Option<String> {
+        None
+    }
+
+    fn owed(&self, _: &u8) -> u16 {
+        0
+    }
+
+    fn awake(&self, _: &u8) -> u16 {
+        0
+    }
+
+    fn tell(&self, state: &u8, _: usize, to: &mut impl Hasher) {
+        to.write_u8(*state);
+    }
+}
+
+#[test]
+fn a_system_without_a_start_is_refused() {
+    assert!(check_states(&Nothing, &section(&[0, 0]), 7).is_err());
+    assert_eq!(check_states(&Nothing, &section(&[0, 1, 0, 0]), 7), Err(Refusal::Starts(0)));
+}
+
+#[test]
+fn a_number_comes_back_and_has_one_form() {
+    for number in [0, 1, 0x7f, 0x80, 0x3fff, 0x4000, u64::MAX >> 1, u64::MAX] {
+        let bytes = section(&[number, 5]);
+        let mut rest = &bytes[..];
+        assert_eq!((take(&mut rest), take(&mut rest), take(&mut rest)), (Some(number), Some(5), None));
+    }
+    let most = section(&[u64::MAX]);
+    let above = [&most[..9], &[2]].concat();
+    let eleven = [&most[..9], &[0x81, 1]].concat();
+    for mut bytes in [&[][..], &[0x80], &[0x80, 0], &[0xff, 0x80, 0], &above, &eleven] {
+        assert_eq!(take(&mut bytes), None, "{bytes:?}");
+    }
+}
+
+#[test]
+fn every_refusal_has_words_of_its_own() {
+    let (demand, answers) = (|| "a demand".to_owned(), || vec![1, 0]);
+    let refusals = [
+        Refusal::Malformed(4),
+        Refusal::Starts(4),
+        Refusal::Start(4),
+        Refusal::Steps(4, 4),
+        Refusal::Leads(4, 4),
+        Refusal::Breaks(4, 4, demand()),
+        Refusal::Ends(4, demand()),
+        Refusal::Twice(4),
+        Refusal::Owes(4),
+        Refusal::Rises(4, 4),
+        Refusal::Endless(4, 4),
+        Refusal::Broken(answers(), demand()),
+        Refusal::Long(answers()),
+        Refusal::Runs(4, 4, 4),
+        Refusal::Longest(4),
+    ];
+    let faults = [Fault::Foreign, Fault::Damaged, Fault::Line(4, "claim"), Fault::Sections];
+    let words = refusals.iter().map(ToString::to_string).chain(faults.iter().map(ToString::to_string));
+    let words: BTreeSet<String> = words.filter(|words| words.len() > 20).collect();
+    assert_eq!(words.len(), refusals.len() + faults.len(), "{words:?}");
+}
+
+#[test]
+fn counts_of_sections_are_added() {
+    let counts = |states, steps, ends| Counts { states, steps, ends };
+    assert_eq!(counts(3, 5, 7).with(counts(10, 20, 30)), counts(13, 25, 37));
 }
 
 fn header() -> Header {
