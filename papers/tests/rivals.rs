@@ -46,7 +46,7 @@ fn parameters(number: u64) -> Parameters {
     Parameters {
         links: if number & 1 == 0 { Links::Safe } else { Links::Covered },
         cells: if number & 2 == 0 { Cells::Distinct } else { Cells::Shared },
-        weights: Weights { distance: 1.0, new_cell: if number & 4 == 0 { 0.0 } else { 2.5 } },
+        weights: Weights { distance: 1.0, new_cell: if number & 4 == 0 { 0.0 } else { 2.5 }, leader: 1.0 },
         ..Parameters::FULL
     }
 }
@@ -132,12 +132,12 @@ fn what_does_not_fit_is_refused_with_its_reason() {
         @"a pool of no team moves");
     insta::assert_snapshot!(refused(Parameters::POOL, 1), @"there is no team of 1, the base counted");
     for wrong in [f64::NAN, f64::INFINITY, -1e9] {
-        let weights = Weights { distance: wrong, new_cell: 0.0 };
+        let weights = Weights { distance: wrong, ..Parameters::FULL.weights };
         assert!(matches!(
             Parameters { weights, ..Parameters::FULL }.check(8),
             Err(ParameterError::Weight { .. })
         ));
-        let weights = Weights { distance: 1.0, new_cell: wrong };
+        let weights = Weights { new_cell: wrong, ..Parameters::FULL.weights };
         assert!(matches!(
             Parameters { weights, ..Parameters::POOL }.check(8),
             Err(ParameterError::Weight { .. })

@@ -7,7 +7,7 @@
 //! | [`Links`] | “E_S … This restriction is applied for all of the tested algorithms” (D) | E_S |
 //! | [`Cells`] | “punishes the configurations in which the robots come too close” (I.B) | distinct outside the base |
 //! | [`Moves`] | “4^(N−1) team-configurations” (C) | 5: seven robots cannot leave the base by four sides |
-//! | [`Weights`] | the distance to the frontier, “with equal weight” (C) | 1 for the distance, 0 for a new cell |
+//! | [`Weights`] | the distance to the frontier, “with equal weight” (C, E) | 1 for the distance, 0 for a new cell, 1 for a leader |
 //! | [`Deadlock`] | “sooner or later” (E) | nothing but chance |
 //! | `patience` | not given | 1000 team moves without gain: the team is taken to be stuck |
 
@@ -103,6 +103,8 @@ pub struct Weights {
     pub distance: f64,
     /// The gain of a cell that is unexplored.
     pub new_cell: f64,
+    /// How many times those of the first robot behind the base count: 1 with “equal weight”.
+    pub leader: f64,
 }
 
 /// A team's way out when it has gained nothing for a while: neither an explored cell nor a wall.
@@ -164,7 +166,7 @@ impl Parameters {
         links: Links::Safe,
         cells: Cells::Distinct,
         moves: Moves::Five,
-        weights: Weights { distance: 1.0, new_cell: 0.0 },
+        weights: Weights { distance: 1.0, new_cell: 0.0, leader: 1.0 },
         deadlock: Deadlock::Wait,
         patience: 1000,
     };
@@ -198,7 +200,8 @@ impl Parameters {
         if !(2..=MAX_ROBOTS).contains(&robots) {
             return Err(ParameterError::Robots(robots));
         }
-        for (name, weight) in [("distance", self.weights.distance), ("new cell", self.weights.new_cell)] {
+        let Weights { distance, new_cell, leader } = self.weights;
+        for (name, weight) in [("distance", distance), ("new cell", new_cell), ("leader", leader)] {
             // A weight that is no number is not within either.
             if weight.is_nan() || weight.abs() > MOST_WEIGHT {
                 return Err(ParameterError::Weight { name, weight });
@@ -224,12 +227,18 @@ impl Parameters {
 
 impl Weights {
     /// All cells are worth the same.
-    pub const NONE: Self = Self { distance: 0.0, new_cell: 0.0 };
+    pub const NONE: Self = Self { distance: 0.0, new_cell: 0.0, leader: 1.0 };
 
     /// The price of a cell so many sides from an unexplored one, in millionths.
     pub(super) fn price(self, distance: u32) -> i64 {
         let gain = if distance == 0 { parts(self.new_cell) } else { 0 };
         parts(self.distance) * i64::from(distance) - gain
+    }
+
+    /// The weights of one robot.
+    pub(super) const fn of(self, leads: bool) -> Self {
+        let times = if leads { self.leader } else { 1.0 };
+        Self { distance: self.distance * times, new_cell: self.new_cell * times, ..self }
     }
 }
 

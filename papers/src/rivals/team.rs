@@ -74,7 +74,8 @@ impl Team {
             Moves::Five => &Step::ALL[..],
         };
         let map = &self.map;
-        let options = |&from: &Cell| {
+        let options = |(place, &from): (usize, &Cell)| {
+            let weights = weights.of(place == 1);
             let free = steps
                 .iter()
                 .filter(|&&step| !matches!(step, Step::Cross(side) if map.is_wall(Edge::new(from, side))));
@@ -87,7 +88,7 @@ impl Team {
             options.sort_by_key(|candidate| candidate.price);
             Some(options).filter(|options| !options.is_empty())
         };
-        let robots: Option<Vec<_>> = self.cells.iter().skip(1).map(options).collect();
+        let robots: Option<Vec<_>> = self.cells.iter().enumerate().skip(1).map(options).collect();
         let Parameters { links, cells, .. } = self.parameters;
         Some(Joint { base: self.cells[0], robots: robots?, links, cells })
     }

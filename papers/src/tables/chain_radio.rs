@@ -1,4 +1,4 @@
-//! The radio chain [Kovács 2011, II]: a robot with two radios keeps both its neighbours, one with a single radio is a
+//! The radio chain [Kovács 2011, I]: a robot with two radios keeps both its neighbours, one with a single radio is a
 //! bridge that leaves the one to speak to the other. “This switching … takes between 3 and 6 seconds … Under this
 //! period the network is not connected.” The bytes are those of real runs without walls: after each team move each
 //! robot's byte goes to all others.
@@ -174,10 +174,24 @@ impl Table for ChainRadio {
         let cut: u32 = merged.lines.iter().map(|line| line.cut).sum();
         let big = merged.lines.last();
         let switching = big.and_then(|line| line.switching);
-        vec![
+        let sent = |which, links: fn(&Line) -> u32| {
+            let bytes = |line: &Line| line.bytes * links(line) / (line.team_moves * moving(line));
+            let most = merged.lines.iter().map(bytes).max().unwrap_or(0);
+            let measured = format!("at most {} a robot and team move", counted(most, "byte"));
             Judgement::new(
-                "“ensures that every node … is reachable continuously”",
-                "two radios",
+                "“each robot sends only one byte in a step-cycle” (III.D)",
+                which,
+                measured,
+                Verdict::of(most <= 1),
+            )
+        };
+        vec![
+            sent("of its own", |_| 1),
+            // Each link carries the bytes of all robots, one way or the other.
+            sent("those that it passes on, too", moving),
+            Judgement::new(
+                "“every nodes in the network is reachable continuously” (I)",
+                "two radios, repaired rule, no walls",
                 format!("{cut} team moves cut"),
                 Verdict::of(cut == 0),
             ),
@@ -192,6 +206,11 @@ impl Table for ChainRadio {
             ),
         ]
     }
+}
+
+/// The robots that move, as many as there are links.
+fn moving(line: &Line) -> u32 {
+    u32::from(line.robots) - 1
 }
 
 /// How long a switch takes.

@@ -43,19 +43,19 @@ impl Figure {
         [&[bricks, BRICKS_PUBLISHED], &others[..], readings].concat()
     }
 
-    /// The team that is run with no sensor missed, too: in Fig. 11 the paper's ants, whose readings are then one.
-    pub(super) fn unmissed(self) -> Option<Team> {
-        let [_, _, _, ants, ..] = TEAMS;
+    /// The teams that are run with no sensor missed, too: in Fig. 11 the paper's, of which ants have one reading then.
+    pub(super) fn unmissed(self) -> Vec<Team> {
+        let [bricks, _, _, ants, ..] = TEAMS;
         match self {
-            Self::Agents => Some(ants),
-            Self::Area | Self::Ideal => None,
+            Self::Agents => vec![bricks, BRICKS_PUBLISHED, ants],
+            Self::Area | Self::Ideal => Vec::new(),
         }
     }
 
-    /// The runs at each point: the teams, then the one that misses nothing.
+    /// The runs at each point: the teams, then those that miss nothing.
     pub(super) fn runs(self) -> Vec<(Team, Probability)> {
         let teams = self.teams().into_iter().map(|team| (team, self.miss()));
-        teams.chain(self.unmissed().map(|team| (team, Probability::NEVER))).collect()
+        teams.chain(self.unmissed().into_iter().map(|team| (team, Probability::NEVER))).collect()
     }
 
     /// How likely a sensor is missed.
@@ -76,7 +76,7 @@ pub struct Summary {
     pub(super) max_steps: u32,
     /// Point by point, each of all teams.
     pub lines: Vec<Line>,
-    /// Ants with no sensor missed, point by point, in Fig. 11.
+    /// The paper's teams with no sensor missed, point by point, in Fig. 11.
     pub unmissed: Vec<Line>,
     pub(super) paper: Vec<PrintedFigure>,
 }

@@ -49,11 +49,33 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
                 let sentence = "“Ants always manage to explore 100% of the area's cells”";
                 Judgement::new(sentence, team.name(), fewest(team), verdict)
             });
+            let better = both.into_iter().filter_map(|bricks| {
+                let (one, most) = (of(bricks).next()?, of(bricks).next_back()?);
+                Some(Judgement::new(
+                    "“Adding more agents allows us to achieve better results”",
+                    bricks.name(),
+                    format!(
+                        "{} % by one, {} % by {}",
+                        one.explored.text(1),
+                        most.explored.text(1),
+                        most.agents
+                    ),
+                    below(one.explored.interval, most.explored.interval),
+                ))
+            });
             let papers = [ants_published, beside, in_count];
-            let (share, time) =
-                (papers.map(|team| share(merged, team)), papers.map(|team| time(merged, team)));
-            let affected = share.into_iter().chain(time).flatten();
-            below_all.into_iter().chain(ants).chain(affected).collect()
+            let affected = papers.iter().filter_map(|&team| share(merged, team));
+            let late = papers.iter().filter_map(|&team| time(merged, team));
+            let compromised = both.into_iter().flat_map(|bricks| compromised(merged, bricks));
+            let rivals = pairs(papers, both).filter_map(|(ants, bricks)| more_robust(merged, ants, bricks));
+            better
+                .chain(below_all)
+                .chain(ants)
+                .chain(affected)
+                .chain(late)
+                .chain(compromised)
+                .chain(rivals)
+                .collect()
         }
         Figure::Area => {
             let explored = |line: &Line| format!("{} % of {}x{1} cells", line.explored.text(1), line.side);
@@ -66,7 +88,18 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
                     below(last.explored.interval, first.explored.interval),
                 ))
             });
-            judged.collect()
+            let terminates = both.into_iter().filter_map(|bricks| {
+                let Line { side, termination, .. } = *of(bricks).next()?;
+                let done = termination.map_or(0, |duration| duration.seconds.count);
+                Some(Judgement::new(
+                    "“In relatively small areas, agents running Brick&Mortar manage to terminate before all of them \
+                     are blocked”",
+                    bricks.name(),
+                    format!("all agents are done in {done} of {} runs of {side}x{side} cells", merged.layouts),
+                    always(Estimate::share(done, merged.layouts)),
+                ))
+            });
+            terminates.chain(judged).collect()
         }
         Figure::Ideal => {
             let rivals = both.into_iter().flat_map(|bricks| [(bricks, ants), (bricks, ants_published)]);
@@ -127,15 +160,21 @@ fn is_sooner(merged: &Summary, line: &Line, others: Option<Estimate>) -> Verdict
 /// The two sentences that missed sensors hardly affect ants; no number tells how far “hardly” is.
 const AFFECTED: &str = "detection errors “hardly affect” Ants (VI), “minor effects on Ants” (V.B)";
 
-/// The lines of ants that miss sensors, each beside that of the paper's that miss none.
-fn beside_unmissed(merged: &Summary, team: Team) -> impl Iterator<Item = (&Line, &Line)> {
+/// The paper's ants, who do the same by every reading where no sensor is missed.
+const fn unmissed_ants() -> Team {
+    let [_, _, _, ants, ..] = TEAMS;
+    ants
+}
+
+/// The lines of a team that misses sensors, each beside that of `unmissed`, which misses none.
+fn beside_unmissed(merged: &Summary, team: Team, unmissed: Team) -> impl Iterator<Item = (&Line, &Line)> {
     let lines = merged.lines.iter().filter(move |line| line.team == team);
-    lines.zip(&merged.unmissed)
+    lines.zip(merged.unmissed.iter().filter(move |line| line.team == unmissed))
 }
 
 /// Whether missed sensors hardly affect the share of the cells that ants explore, at every number of agents.
 fn share(merged: &Summary, team: Team) -> Option<Judgement> {
-    let all = || beside_unmissed(merged, team);
+    let all = || beside_unmissed(merged, team, unmissed_ants());
     let is_near = |(line, unmissed): (&Line, &Line)| {
         below(unmissed.explored.times(NEAR).interval, line.explored.interval)
     };
@@ -154,9 +193,59 @@ fn share(merged: &Summary, team: Team) -> Option<Judgement> {
     ))
 }
 
+/// Whether missed sensors compromise how much Brick&Mortar explores, at some and at every number of agents.
+fn compromised(merged: &Summary, team: Team) -> [Judgement; 2] {
+    let all = || beside_unmissed(merged, team, team);
+    let is_far = |(line, unmissed): (&Line, &Line)| {
+        below(line.explored.interval, unmissed.explored.times(NEAR).interval)
+    };
+    let ratio = |(line, unmissed): (&Line, &Line)| line.explored.mean / unmissed.explored.mean;
+    let order = |one: &(&Line, &Line), other: &(&Line, &Line)| ratio(*one).total_cmp(&ratio(*other));
+    let measured = |at: Option<(&Line, &Line)>| {
+        at.map_or_else(String::new, |(line, unmissed)| {
+            let [ours, theirs] = [line, unmissed].map(|line| line.explored.text(1));
+            format!("{ours} % against {theirs} % by {}", counted(line.agents, "agent"))
+        })
+    };
+    let sentence = format!(
+        "missed sensors “can greatly compromise the performance of Brick&Mortar” (V.B), “significantly” (VI): less \
+         than {NEAR} of the cells that are explored with none missed"
+    );
+    let (some, every) = (Verdict::or as fn(_, _) -> _, Verdict::and as fn(_, _) -> _);
+    [
+        ("at some number of agents", all().min_by(order), all().map(is_far).fold(Verdict::Fails, some)),
+        ("at every number of agents", all().max_by(order), all().map(is_far).fold(Verdict::Holds, every)),
+    ]
+    .map(|(which, at, verdict)| {
+        Judgement::new(sentence.clone(), format!("{}, {which}", team.name()), measured(at), verdict)
+    })
+}
+
+/// Whether ants that miss sensors explore more than Brick&Mortar that misses them, at every number of agents.
+fn more_robust(merged: &Summary, ants: Team, bricks: Team) -> Option<Judgement> {
+    let of = |team| merged.lines.iter().filter(move |line| line.team == team);
+    let all = || of(ants).zip(of(bricks));
+    let lead = |(ants, bricks): &(&Line, &Line)| ants.explored.mean - bricks.explored.mean;
+    let (worst, rival) = all().min_by(|one, other| lead(one).total_cmp(&lead(other)))?;
+    Some(Judgement::new(
+        "Ants are “significantly more robust in realistic error conditions” (V.B): they explore more cells, at every \
+         number of agents",
+        format!("{} against {}", ants.name(), bricks.name()),
+        format!(
+            "{} % against {} % at worst, by {}",
+            worst.explored.text(1),
+            rival.explored.text(1),
+            counted(worst.agents, "agent")
+        ),
+        all()
+            .map(|(ants, bricks)| below(bricks.explored.interval, ants.explored.interval))
+            .fold(Verdict::Holds, Verdict::and),
+    ))
+}
+
 /// Whether missed sensors hardly affect how long ants explore, at every number of agents.
 fn time(merged: &Summary, team: Team) -> Option<Judgement> {
-    let all = || beside_unmissed(merged, team);
+    let all = || beside_unmissed(merged, team, unmissed_ants());
     let is_near = |(line, unmissed): (&Line, &Line)| {
         is_sooner(merged, line, moves_of_all(merged, unmissed).map(|moves| moves.times(1.0 + SAME)))
     };

@@ -37,9 +37,10 @@ const NEVER: f64 = u32::MAX as f64;
 const EVER: f64 = 1e5;
 
 /// How many times as many team moves, with the 95 % interval; ∞ where one team never gets there.
-pub(super) fn or_never(times: f64, [low, high]: [f64; 2]) -> String {
+pub(super) fn or_never(times: f64, ends: Option<[f64; 2]>) -> String {
     let text = |times: f64| if times > EVER { "∞".to_owned() } else { format!("{times:.2}") };
-    format!("{} [{}, {}]", text(times), text(low), text(high))
+    let ends = ends.map_or_else(String::new, |[low, high]| format!(" [{}, {}]", text(low), text(high)));
+    text(times) + &ends
 }
 
 impl Race {
@@ -88,7 +89,9 @@ impl Race {
     pub(super) fn text(self) -> String {
         let ratio = match self.ratio {
             None => "-".to_owned(),
-            Some(Estimate { mean, interval: Some(ends), .. }) if ends[1] > EVER => or_never(mean, ends),
+            Some(Estimate { mean, interval, .. }) if interval.map_or(mean, |[_, high]| high) > EVER => {
+                or_never(mean, interval)
+            }
             Some(ratio) => ratio.text(2),
         };
         let by =

@@ -19,8 +19,8 @@ settings! {
         pub seed: u64 = 0, one("seed", "SEED", number);
         /// Team moves in the pool of Rooker and Birk
         pub pool: u32 = POOL, one("pool", "MOVES", pool);
-        /// The weights of a side on the way to an unexplored cell, and of a new cell
-        pub weights: Weights = Parameters::POOL.weights, both();
+        /// The weights of a side on the way to an unexplored cell, of a new cell, and of a leader
+        pub weights: Weights = Parameters::POOL.weights, weights();
         /// Team moves without gain after which a rival makes 5 legal ones at random; 0 for never
         pub scatter: u32 = 0, one("scatter", "MOVES", number);
         /// Team moves without gain after which a rival's run ends
@@ -45,19 +45,22 @@ impl RivalSettings {
     }
 }
 
-/// Both weights, each by an option of its own.
-fn both() -> Vec<Parameter<Weights>> {
+/// The weights, each by an option of its own.
+fn weights() -> Vec<Parameter<Weights>> {
     let price = "What a rival's robot pays for each side on its way to an unexplored cell";
     let gain = "What a rival's robot gains in an unexplored cell";
-    let [price_by, gain_by] = ["distance-weight", "new-cell-weight"].map(|name| one(name, "WEIGHT", weight));
-    let mut both = of_field(price, |all: &Weights| &all.distance, |all| &mut all.distance, price_by);
-    both.extend(of_field(gain, |all: &Weights| &all.new_cell, |all| &mut all.new_cell, gain_by));
-    both
+    let leads = "How many times as much that counts for one robot, the leader; 1 for equal weight";
+    let names = ["distance-weight", "new-cell-weight", "leader-weight"];
+    let [price_by, gain_by, leads_by] = names.map(|name| one(name, "WEIGHT", weight));
+    let mut weights = of_field(price, |all: &Weights| &all.distance, |all| &mut all.distance, price_by);
+    weights.extend(of_field(gain, |all: &Weights| &all.new_cell, |all| &mut all.new_cell, gain_by));
+    weights.extend(of_field(leads, |all: &Weights| &all.leader, |all| &mut all.leader, leads_by));
+    weights
 }
 
 fn weight(text: &str) -> Result<f64, String> {
     let weight = real(text)?;
-    let weights = Weights { distance: weight, new_cell: 0.0 };
+    let weights = Weights { distance: weight, ..Parameters::POOL.weights };
     let checked = Parameters { weights, ..Parameters::POOL }.check(ROBOTS.into());
     checked.map(|()| weight).map_err(|unfit| unfit.remedy())
 }
