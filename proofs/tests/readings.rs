@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::chain::{Chain, Intent, Kind, Message, Outcome, Rule};
+use tautline_kernel::chain::{Chain, High, Intent, Kind, Message, Move, Outcome, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step, TinyGrid};
 use tautline_proofs::chain::Subject;
@@ -44,6 +44,40 @@ fn in_the_open(robots: i16, readings: &[Reading]) -> usize {
         }
     }
     unreachable!("a run ends")
+}
+
+/// Row 7: R_{i+1} has five steps in the next team move, and those count that end in E_C of R_i. It has all of them if R_i
+/// is in E_N of it, and three if R_i is at a corner.
+#[test]
+fn a_follower_in_e_n_of_the_planned_place_leaves_the_robot_ahead_all_five_steps() {
+    let (here, rule) = (Cell::new(0, 0), Rule::PUBLISHED);
+    let cells: Vec<Cell> = (-4..=4).flat_map(|x| (-4..=4).map(move |y| Cell::new(x, y))).collect();
+    let variety = |follower: Cell, ahead: Cell| {
+        Step::ALL.into_iter().filter(|&step| rule.covered.covers(follower, ahead.after(step))).count()
+    };
+    // By whether the list of R_i prefers its place: how many steps R_{i+1} has from where it is sent to, and from where
+    // it is if that way is blocked.
+    let varieties = |high: High| {
+        let (mut sent, mut blocked) =
+            ([BTreeSet::new(), BTreeSet::new()], [BTreeSet::new(), BTreeSet::new()]);
+        for ahead in Step::ALL.map(|step| Move { from: here, step, known_open: false }) {
+            for &from in &cells {
+                let preferred = Rule { high, ..rule }.high_steps(from, ahead);
+                for step in
+                    Step::ALL.into_iter().filter(|&step| rule.safe.covers(ahead.to(), from.after(step)))
+                {
+                    let is_preferred = usize::from(preferred.has(step));
+                    sent[is_preferred].insert(variety(from.after(step), ahead.to()));
+                    blocked[is_preferred].insert(variety(from.after(step), here));
+                }
+            }
+        }
+        [sent, blocked].map(|kinds| kinds.map(|kind| kind.into_iter().collect::<Vec<_>>()))
+    };
+    let [sent, blocked] = varieties(High::Planned);
+    assert_eq!((sent, blocked), ([vec![3], vec![5]], [vec![2, 3, 5], vec![2, 3, 5]]));
+    let [sent, blocked] = varieties(High::Present);
+    assert_eq!((sent, blocked), ([vec![3, 5], vec![3, 5]], [vec![2, 3], vec![5]]));
 }
 
 /// The paper's Table I has 62 team moves for eight robots.

@@ -194,6 +194,46 @@ fn no_smaller_layout_traps_an_agent_in_plain_runs() {
     assert_eq!(run(Rule::REPAIRED, &notched(), starts[0], &missed).0, Fate::Trapped(moves));
 }
 
+/// Whether an agent that is carried to `to` before action `after` of a run that misses nothing is done then, or later,
+/// while another cell is unexplored.
+fn is_done_early(rule: Rule, free: &[Cell], start: Cell, (after, to): (u32, Cell)) -> bool {
+    let mut floor =
+        Plain { sensors: free.iter().map(|&cell| (cell, Sensor::default())).collect(), placed: 0 };
+    settle(&mut floor, &[start]);
+    let (mut agent, mut cell, mut script) = (Agent::new(0), start, Script { missed: &[], asked: 0 });
+    for moves in 0..100 {
+        cell = if moves == after { to } else { cell };
+        let action;
+        (action, cell) = act(rule, &mut floor, &mut agent, cell, &mut script);
+        if action.next == Next::Done {
+            return floor.sensors.values().any(|sensor| sensor.mark == Mark::Unexplored);
+        }
+    }
+    false
+}
+
+/// In a row of four the agent has marked two cells and entered the third when it is carried back to the first one, from
+/// which it sees visited cells and walls alone. No area of fewer cells will do.
+#[test]
+fn an_agent_of_brick_and_mortar_that_is_carried_back_once_is_done_too_early_in_four_cells() {
+    for rule in [Rule::PUBLISHED, Rule::REPAIRED] {
+        let early = |width, height| {
+            layouts(width, height).any(|free| {
+                let carried = |start| {
+                    (1..20).any(|after| free.iter().any(|&to| is_done_early(rule, &free, start, (after, to))))
+                };
+                free.iter().any(|&start| carried(start))
+            })
+        };
+        let row: Vec<Cell> = (0..4).map(|x| Cell::new(x, 0)).collect();
+        assert!(is_done_early(rule, &row, row[0], (2, row[0])));
+        assert_eq!(
+            [(3, 1), (2, 2), (4, 1)].map(|(width, height)| early(width, height)),
+            [false, false, true]
+        );
+    }
+}
+
 /// From every start, whatever sensor is missed and whatever other.
 #[test]
 fn the_robust_rule_survives_that_layout_with_one_miss_more() {

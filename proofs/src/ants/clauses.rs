@@ -148,7 +148,8 @@ pub const CLAUSES: [Clause; 3] = [
 #[cfg(test)]
 mod tests {
     use rustc_hash::FxHashSet;
-    use tautline_kernel::floor::COMPASS;
+    use tautline_kernel::floor::{COMPASS, Mark, Sensor};
+    use tautline_kernel::ground::Side;
 
     use super::*;
     use crate::engine::states::steps;
@@ -186,6 +187,52 @@ mod tests {
         assert_is_led(&REPAIRED.rule, 1);
         // A cell may have two sensors.
         assert_is_led(&Subject::of(Apart), 2);
+    }
+
+    /// Whatever the cells count, and wherever the ant is: so however often it was carried elsewhere before. A cell into
+    /// which it was put counts nothing for that.
+    #[test]
+    fn an_ant_that_was_relocated_explores_every_cell_from_any_state() {
+        const COUNTS: u32 = 4;
+        let (mut states, mut most_moves) = (0, 0);
+        for team in Series::new(Area::blocked(3, 2), 1).teams(&LOSING, Demand::Explores) {
+            let cells: Vec<usize> = team.plan.cells().filter_map(|cell| team.plan.place(cell)).collect();
+            for start in team.starts() {
+                for counts in 0..COUNTS.pow(cells.len() as u32) {
+                    let mut state = start.clone();
+                    for (digit, &place) in (0..).zip(&cells) {
+                        let crossings = counts / COUNTS.pow(digit) % COUNTS;
+                        let mark = if crossings == 0 { Mark::Unexplored } else { Mark::Explored };
+                        state.sensors.all[place] = Sensor { mark, crossings, ..Sensor::default() };
+                    }
+                    states += 1;
+                    let mut moves = 0;
+                    while !state.sensors.is_explored(&team.plan) && cells.len() > 1 {
+                        let made = steps(&team, &state).next().expect("it goes on");
+                        state = made.state;
+                        moves += 1;
+                        assert!(moves < 100, "{state:?}");
+                    }
+                    most_moves = most_moves.max(moves);
+                }
+            }
+        }
+        assert_eq!((states, most_moves), (67_704, 16));
+    }
+
+    #[test]
+    fn an_ant_that_is_carried_back_for_ever_never_comes_to_the_third_cell() {
+        let teams = Series::new(Area::blocked(3, 1), 1).teams(&LOSING, Demand::Explores);
+        let team = teams.into_iter().find(|team| team.plan.free == 0b111).expect("three cells in a row");
+        let mut state = team.starts().next().expect("a start in the west");
+        let west = state.bodies[0].cell;
+        for _ in 0..1000 {
+            let made = steps(&team, &state).next().expect("it goes on");
+            state = made.state;
+            assert_eq!(state.bodies[0].cell, west.beyond(Side::East));
+            state.bodies[0].cell = west;
+        }
+        assert!(!state.sensors.is_explored(&team.plan));
     }
 
     fn assert_is_led<S: Demands>(subject: &Subject<S>, most_sensors: u8) {

@@ -198,3 +198,100 @@ pub(crate) fn localised(most: &i32, oracle: &mut dyn Oracle) -> Outcome {
     require(Ring::locate(east, south, SIDE) == Some(place), "the sensor is taken for the one of its cell")?;
     Ok("a sensor")
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ops::RangeInclusive;
+
+    use super::*;
+
+    /// 4,200 times estDist = y²/420.0 − 0.931y + 65.0 in millimetres, a sensor's distance by its line y in an image
+    /// [Ferranti 2009, IV].
+    const fn est_dist(y: i64) -> i64 {
+        100 * y * y - 39_102 * y + 2_730_000
+    }
+
+    const MILLIMETRE: i64 = 4_200;
+
+    /// The lines of the highest image of the paper's camera, 1280x1024.
+    const LINES: RangeInclusive<i64> = 0..=1023;
+
+    /// The squares of the distances of the sensors beside an agent, at the corners, and two cells away in a row.
+    const BESIDE: i64 = (SIDE as i64 * MILLIMETRE).pow(2);
+    const AT_A_CORNER: i64 = 2 * BESIDE;
+    const TWO_AWAY: i64 = 4 * BESIDE;
+
+    /// The place that is known of a sensor in line `y` that is straight ahead in this direction.
+    fn known(y: i64, columns: i32, rows: i32) -> Option<u32> {
+        let length = u64::try_from(est_dist(y)).ok()?;
+        // At a corner both coordinates are 1/√2 of the distance.
+        let coordinate = if columns * rows == 0 { length } else { (length.pow(2) / 2).isqrt() };
+        let coordinate = i32::try_from(coordinate / MILLIMETRE as u64).ok()?;
+        Ring::locate(columns * coordinate, rows * coordinate, SIDE)
+    }
+
+    /// The lines of `among` in which each sensor beside an agent, or each at a corner, is taken for the one of its cell.
+    fn known_lines(is_corner: bool, among: RangeInclusive<i64>) -> RangeInclusive<i64> {
+        let places = || (0..).zip(PLACES).filter(|(place, _)| (place % 2 == 1) == is_corner);
+        let is_known =
+            |&y: &i64| places().all(|(place, (columns, rows))| known(y, columns, rows) == Some(place));
+        let lines: Vec<i64> = among.filter(is_known).collect();
+        let (first, last) = (lines[0], lines[lines.len() - 1]);
+        assert_eq!(lines.len() as i64, last - first + 1);
+        first..=last
+    }
+
+    #[test]
+    fn the_printed_distance_is_negative_in_210_lines_and_has_two_lines_for_others() {
+        assert!(LINES.filter(|&y| est_dist(y) <= 0).eq(91..=300));
+        assert_eq!(LINES.min_by_key(|&y| est_dist(y)), Some(196));
+        assert_eq!(est_dist(196) / MILLIMETRE, -260);
+        assert!((1..=196).all(|y| est_dist(y) < est_dist(y - 1)));
+        assert!((197..=1023).all(|y| est_dist(y) > est_dist(y - 1)));
+    }
+
+    /// In lines in which the distance falls, the farther a sensor, the less its line. No line says as much as the
+    /// distance of a corner, but the farthest are near enough to it.
+    #[test]
+    fn where_the_printed_distance_falls_it_is_less_than_that_of_a_corner_and_the_cell_is_known() {
+        assert!((0..=90).all(|y| est_dist(y).pow(2) < AT_A_CORNER));
+        assert_eq!(est_dist(0), 650 * MILLIMETRE);
+        assert_eq!(known_lines(true, 0..=90), 0..=36);
+        assert_eq!(known_lines(false, 0..=90), 0..=50);
+        // A sensor two cells away would be taken for one beside the agent, or for the one underfoot.
+        assert!((0..=90).all(|y| matches!(known(y, 1, 0), Some(2) | None)));
+        assert_eq!(known(0, 1, 0), Some(2));
+    }
+
+    /// In lines in which it rises, a corner needs an image of more than 394 lines. The camera has from 128 to 1024.
+    #[test]
+    fn where_the_printed_distance_rises_every_cell_is_known_from_line_341_on() {
+        let first = |square: i64| (301..=1023).find(|&y| est_dist(y).pow(2) >= square);
+        assert_eq!((first(BESIDE), first(AT_A_CORNER), first(TWO_AWAY)), (Some(372), Some(395), Some(422)));
+        assert_eq!(known_lines(false, 301..=1023), 341..=398);
+        assert_eq!(known_lines(true, 301..=1023), 355..=427);
+        assert!((422..=1023).all(|y| known(y, 1, 0).is_none()));
+    }
+
+    /// Footnote 2, with 24 steps to the side of a cell. A distance is greatest where an agent is in a corner.
+    #[test]
+    fn the_ranges_of_footnote_2_are_enough_and_sharp_and_reach_more_than_eight_sensors() {
+        const HALF: i32 = 12;
+        let square = |x: i32, y: i32| x.pow(2) + y.pow(2);
+        let diagonal = square(2 * HALF, 2 * HALF);
+        let places = || (-HALF..=HALF).flat_map(|x| (-HALF..=HALF).map(move |y| (x, y)));
+        let sensor = |(columns, rows): (i32, i32)| (2 * HALF * columns, 2 * HALF * rows);
+        let sensed = places().flat_map(|(x, y)| places().map(move |(to_x, to_y)| square(to_x - x, to_y - y)));
+        assert_eq!(sensed.max(), Some(diagonal));
+        let asked =
+            places().flat_map(|(x, y)| PLACES.map(sensor).map(|(to_x, to_y)| square(to_x - x, to_y - y)));
+        assert_eq!(asked.max().map(|most| 4 * most), Some(9 * diagonal));
+        let heard = |(x, y): (i32, i32)| {
+            let all = (-4..=4).flat_map(|columns| (-4..=4).map(move |rows| sensor((columns, rows))));
+            all.filter(|(to_x, to_y)| 4 * square(to_x - x, to_y - y) <= 9 * diagonal).count()
+        };
+        assert_eq!((heard((0, 0)), heard((HALF, 0)), heard((HALF, HALF))), (13, 16, 16));
+        // Its own sensor is among them.
+        assert_eq!((places().map(heard).min(), places().map(heard).max()), (Some(12), Some(16)));
+    }
+}
