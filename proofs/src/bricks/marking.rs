@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn the_printed_distance_is_negative_in_210_lines_and_has_two_lines_for_others() {
+    fn the_printed_distance_is_negative_in_210_lines_between_those_where_it_falls_and_rises() {
         assert!(LINES.filter(|&y| est_dist(y) <= 0).eq(91..=300));
         assert_eq!(LINES.min_by_key(|&y| est_dist(y)), Some(196));
         assert_eq!(est_dist(196) / MILLIMETRE, -260);
