@@ -20,9 +20,9 @@ use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 
 pub use self::drive::{EXPLORED, Outcome};
-use self::drive::{driven, is_any};
+use self::drive::{driven, is_any, silent};
 use self::figure::Figure;
-pub use self::figure::{Line, Race, Settings, Summary, TEAMS, Team, TeamRule};
+pub use self::figure::{Contest, Line, Race, Settings, Summary, TEAMS, Team, TeamRule};
 use self::lattice::FAMILIES;
 pub use self::lattice::PATHS;
 pub use self::range::KitRange;
@@ -32,6 +32,12 @@ use tautline_sim::kit::{self, Pace};
 /// Places in [`TEAMS`] of a team and the one that is to be sooner: two robots against one by each rule, as the paper
 /// compares them, and two repaired robots against two by each reading.
 const RACES: [[usize; 2]; 5] = [[0, 1], [2, 3], [4, 5], [1, 5], [3, 5]];
+
+/// Places in [`TEAMS`] of two robots as published, by each reading; their runs without a word follow those of the teams.
+const TALKING: [usize; 2] = [1, 3];
+
+/// The seed of the second of two robots that do not talk is so far from that of the first.
+const OTHER_SEED: u64 = 1 << 63;
 
 /// The description that both figures share.
 const ABOUT: Description = Description {
@@ -78,7 +84,7 @@ type Job = Run<usize>;
 impl Table for Kit {
     type Settings = Settings;
     type Job = Job;
-    type Sample = [Outcome; TEAMS.len()];
+    type Sample = [Outcome; TEAMS.len() + TALKING.len()];
     type Summary = Summary;
 
     fn about(&self) -> Description {
@@ -90,7 +96,7 @@ impl Table for Kit {
     }
 
     fn parts(&self, _: &Job) -> u64 {
-        TEAMS.len() as u64
+        (TEAMS.len() + TALKING.len()) as u64
     }
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
@@ -98,18 +104,28 @@ impl Table for Kit {
         let seed = run.seed(settings.seed);
         let (layout, start) = family.layout(seed)?;
         let pace = Pace { speed: settings.speed, spread: settings.spread };
-        Ok(TEAMS.map(|team| follow(team, &layout, start, pace, seed)))
+        Ok(std::array::from_fn(|place| {
+            if let Some(&team) = TEAMS.get(place) {
+                return follow(team, &layout, start, pace, seed);
+            }
+            let rule = TEAMS[TALKING[place - TEAMS.len()]].rule.of_kit();
+            silent(rule, &layout, start, pace, [seed, seed.wrapping_add(OTHER_SEED)])
+        }))
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
-        let (mut lines, mut races) = (Vec::new(), Vec::new());
+        let (mut lines, mut races, mut silence) = (Vec::new(), Vec::new(), Vec::new());
         for (place, family) in FAMILIES.into_iter().enumerate() {
             let teams = of_teams(&results, place);
             lines.extend(TEAMS.into_iter().zip(&teams).map(|(team, all)| Line::of(family, team, all)));
             races.extend(RACES.map(|places| Race::of(family, places, places.map(|place| &teams[place][..]))));
+            silence.extend(TALKING.into_iter().enumerate().map(|(number, place)| {
+                let teams = [TEAMS.len() + number, place].map(|place| &teams[place][..]);
+                Contest::of(self.figure, family, TEAMS[place].rule, teams)
+            }));
         }
         let paper = text::of(self.figure, &lines, &races);
-        Ok(Summary { settings: *settings, lines, races, paper })
+        Ok(Summary { settings: *settings, lines, races, silence, paper })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
@@ -122,6 +138,7 @@ impl Table for Kit {
             judged.extend(text::sooner(&merged.races));
             judged.extend(text::directions(&merged.lines));
         }
+        judged.extend(text::talking(self.figure, &merged.silence));
         judged
     }
 
@@ -138,10 +155,20 @@ impl Table for Kit {
 }
 
 fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> Outcome {
-    let (rule, starts) = match team.rule {
-        TeamRule::Published => (Rule::PUBLISHED, vec![start; team.robots]),
-        TeamRule::Ahead => (Rule::AHEAD, vec![start; team.robots]),
-        TeamRule::Repaired => (Rule::REPAIRED, kit::starts(layout, start, team.robots)),
+    let starts = match team.rule {
+        TeamRule::Published | TeamRule::Ahead => vec![start; team.robots],
+        TeamRule::Repaired => kit::starts(layout, start, team.robots),
     };
-    driven(rule, layout, starts, pace, seed)
+    driven(team.rule.of_kit(), layout, starts, pace, seed)
+}
+
+impl TeamRule {
+    /// The kernel's rule.
+    const fn of_kit(self) -> Rule {
+        match self {
+            Self::Published => Rule::PUBLISHED,
+            Self::Ahead => Rule::AHEAD,
+            Self::Repaired => Rule::REPAIRED,
+        }
+    }
 }

@@ -1,14 +1,21 @@
 //! Figure 5 of [Jiang 2011]: how many nodes of a random network a broadcast reaches, and how many forward it, by scheme
 //! and density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach
 //! within the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same
-//! sources.
+//! sources. Beside the figure stand three more promises of the paper: that k-FNF prolongs the lifetime of the network
+//! (1), that other schemes than flooding have fewer collisions (2.2), and that of a sender's hearers the farthest is the
+//! likeliest to forward (3.2).
+
+mod lifetime;
+
+use std::cmp::Reverse;
 
 use tautline_io::named_values::NamedValues;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
-use tautline_kernel::notice::{Count, Rule, Scheme};
+use tautline_kernel::notice::{Count, Node, Rule, Scheme, Stage};
 use tautline_proofs::engine::SeededOracle;
 
+pub use self::lifetime::{BROADCASTS, Lifetime};
 use super::prelude::*;
 use super::sentences::NEAR;
 use tautline_field::radio::{
@@ -30,6 +37,12 @@ const PAPER: (Count, f64) = (Count::ONE, 1.0);
 
 /// The name of the scalable broadcast algorithm.
 const SBA: &str = "sba";
+
+/// The name of k-FNF.
+const K_FNF: &str = "k-fnf";
+
+/// The hearers of a sender by their distance.
+const RANKS: [&str; 3] = ["farthest", "second", "others"];
 
 /// Figure 5.
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +95,11 @@ pub struct Density {
     pub component: Estimate,
     /// Scheme by scheme.
     pub schemes: Vec<Line>,
+    /// The lifetime by k-FNF, of the first k, over that by flooding.
+    pub lifetimes: Vec<Lifetime>,
+    /// The share that forwards by k-FNF, of the first k, among the nodes that are the farthest from their parent of all
+    /// that have it, those that are the second, and the others.
+    pub forwarding: Vec<Option<Estimate>>,
 }
 
 /// One scheme at one number of nodes.
@@ -99,21 +117,27 @@ pub struct Line {
     pub reach_component: Estimate,
     /// Nodes that forward, the source not included.
     pub rebroadcasts: Estimate,
+    /// Messages that a node does not hear for another signal, where signals can collide.
+    pub collisions: Option<Estimate>,
+    /// Those for each packet sent.
+    pub collisions_per_packet: Option<Estimate>,
 }
 
-/// One topology: the nodes that links connect to the source, and scheme by scheme the nodes reached and the
-/// rebroadcasts.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+/// One topology: the nodes that links connect to the source, and scheme by scheme the nodes reached, the rebroadcasts
+/// and the collisions; of k-FNF the lifetimes, and by rank the nodes that forward and all.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Sample {
     component: u32,
-    schemes: Vec<(u32, u32)>,
+    schemes: Vec<(u32, u32, u32)>,
+    lifetimes: [f64; 4],
+    ranks: [(u32, u32); RANKS.len()],
 }
 
 impl Settings {
     /// The schemes of the figure by name, k-FNF for each k.
     fn schemes(&self, range_um: u32) -> Vec<(String, Scheme)> {
         let farthest =
-            |&Senders(k): &Senders| (format!("k-fnf k={}", k.get()), Scheme::Farthest { k: Some(k) });
+            |&Senders(k): &Senders| (format!("{K_FNF} k={}", k.get()), Scheme::Farthest { k: Some(k) });
         let counter = |below: Count| (format!("counter C={}", below.get()), Scheme::Counter { below });
         let distance = |tenths: u32| {
             let least_um = (u64::from(range_um) * u64::from(tenths) / 10) as u32;
@@ -139,16 +163,23 @@ impl Settings {
     /// A broadcast by every scheme in a topology; all draw their waits from the start of the same stream.
     fn sample(&self, nodes: usize, topology: u32) -> Result<Sample, Problem> {
         let (network, source) = self.topology(nodes, topology)?;
-        let range_um = self.radio()?.range_um();
-        let schemes = self.schemes(range_um.get()).into_iter().map(|(_, scheme)| {
-            let rule = Rule::new(scheme, range_um, LONGEST_WAIT_NS);
+        let (range_um, channel) = (self.radio()?.range_um(), self.channel.channel());
+        let rules = self.schemes(range_um.get()).into_iter();
+        let rules: Vec<Rule> =
+            rules.map(|(_, scheme)| Rule::new(scheme, range_um, LONGEST_WAIT_NS)).collect();
+        let mut ranks = None;
+        let schemes = rules.iter().map(|rule| {
             let chance = &mut SeededOracle::new(self.seed, 2 * u64::from(topology) + 1);
-            let channel = self.channel.channel();
-            let (report, _) = broadcast(&network, &rule, channel, &Faults::NONE, source, chance)?;
-            Ok((report.reached, report.rebroadcasts))
+            let (report, nodes) = broadcast(&network, rule, channel, &Faults::NONE, source, chance)?;
+            ranks.get_or_insert_with(|| by_rank(&network, &nodes));
+            Ok((report.reached, report.rebroadcasts, report.air.collided as u32))
         });
         let schemes = schemes.collect::<Result<_, Problem>>()?;
-        Ok(Sample { component: network.component(source) as u32, schemes })
+        // A stream of its own: topologies count their streams from 0.
+        let chance = &mut SeededOracle::new(self.seed, u64::MAX - u64::from(topology));
+        let lifetimes = lifetime::ratios(&network, &rules[0], channel, source, chance)?;
+        let component = network.component(source) as u32;
+        Ok(Sample { component, schemes, lifetimes, ranks: ranks.unwrap_or_default() })
     }
 
     fn density(&self, nodes: usize, samples: &[&Sample], schemes: Vec<(String, Scheme)>) -> Density {
@@ -158,6 +189,10 @@ impl Settings {
         };
         let connected = share(samples, |sample| sample.component as usize == nodes);
         let is_papers = self.side_m == SIDE_M && self.range_m == RANGE_M && NODES.contains(&nodes);
+        let sum = |pair: &dyn Fn(&Sample) -> (u32, u32)| {
+            let pairs = samples.iter().map(|sample| pair(sample));
+            ratio(pairs.map(|(part, all)| (f64::from(part), f64::from(all))))
+        };
         let line = |(place, (name, scheme)): (usize, (String, Scheme))| {
             let (paper_k, paper_reach) = PAPER;
             let is_paper = is_papers && scheme == Scheme::Farthest { k: Some(paper_k) };
@@ -171,15 +206,107 @@ impl Settings {
                 difference: paper.map(|paper| decimals(reach.mean - paper, 1e4)),
                 reach_component: rounded(mean(&|sample| reached(sample) / f64::from(sample.component)), 1e4),
                 rebroadcasts: rounded(mean(&|sample| f64::from(sample.schemes[place].1)), 1e2),
+                collisions: self
+                    .can_collide()
+                    .then(|| rounded(mean(&|sample| f64::from(sample.schemes[place].2)), 1e2)),
+                collisions_per_packet: self
+                    .can_collide()
+                    .then(|| {
+                        sum(&|sample| {
+                            let (_, rebroadcasts, collided) = sample.schemes[place];
+                            (collided, rebroadcasts + 1)
+                        })
+                    })
+                    .flatten(),
             }
         };
+        let lifetimes: Vec<_> = samples.iter().map(|sample| sample.lifetimes).collect();
         Density {
             nodes,
             connected: rounded(connected.unwrap_or(Estimate::NOTHING), 1e4),
             component: rounded(mean(&|sample| f64::from(sample.component) / all), 1e4),
             schemes: schemes.into_iter().enumerate().map(line).collect(),
+            lifetimes: Lifetime::of(&lifetimes),
+            forwarding: (0..RANKS.len()).map(|rank| sum(&|sample| sample.ranks[rank])).collect(),
         }
     }
+
+    fn can_collide(&self) -> bool {
+        match self.channel {
+            ChannelName::Ideal => false,
+            ChannelName::Shared => true,
+        }
+    }
+}
+
+/// By rank the nodes that have forwarded, and all: of those that have a parent in common, the farthest from it first.
+fn by_rank(network: &Network, nodes: &[Node]) -> [(u32, u32); RANKS.len()] {
+    let mut children: Vec<Vec<(Reverse<u32>, usize)>> = vec![Vec::new(); nodes.len()];
+    for (place, node) in nodes.iter().enumerate() {
+        if let Some(parent) = node.parent()
+            && let Some(apart_um) = network.distance_um(parent, NodeId(place as u32))
+        {
+            children[parent.0 as usize].push((Reverse(apart_um), place));
+        }
+    }
+    let mut ranks = [(0, 0); RANKS.len()];
+    for children in &mut children {
+        children.sort_unstable();
+        for (rank, &(_, place)) in children.iter().enumerate() {
+            let (forwarded, all) = &mut ranks[rank.min(RANKS.len() - 1)];
+            *forwarded += u32::from(nodes[place].stage() == Stage::Forwarded);
+            *all += 1;
+        }
+    }
+    ranks
+}
+
+/// Whether all schemes but k-FNF and flooding have fewer collisions than flooding at all densities, counted in one way.
+fn fewer(densities: &[Density], of: &str, collisions: fn(&Line) -> Option<Estimate>) -> Option<Judgement> {
+    let mut verdict = Verdict::Holds;
+    let mut most: Option<(f64, String)> = None;
+    for density in densities {
+        let [rivals @ .., flooding] = &density.schemes[..] else { return None };
+        let flooding = collisions(flooding)?;
+        for line in rivals.iter().filter(|line| !line.scheme.starts_with(K_FNF)) {
+            let ours = collisions(line)?;
+            verdict = verdict.and(below(ours.interval, flooding.interval));
+            let share = ours.mean / flooding.mean;
+            if most.as_ref().is_none_or(|(most, _)| share > *most) {
+                let nodes = counted(density.nodes as u32, "node");
+                let measured =
+                    format!("{} by {}, {} by flooding, {nodes}", ours.text(2), line.scheme, flooding.text(2));
+                most = Some((share, measured));
+            }
+        }
+    }
+    let sentence =
+        "flooding “increases the possibility of packet collision”, the others “reduce” it (2.2): collisions";
+    Some(Judgement::new(sentence, of, format!("at most {}", most?.1), verdict))
+}
+
+/// Whether nodes that are farthest from their parent are the likeliest to forward, at all densities.
+fn farthest(densities: &[Density]) -> Option<Judgement> {
+    let mut verdict = Verdict::Holds;
+    for density in densities {
+        let [first, others @ ..] = &density.forwarding[..] else { return None };
+        let of = |share: &Option<Estimate>| share.and_then(|share| share.interval);
+        for other in others {
+            verdict = verdict.and(below(of(other), of(first)));
+        }
+    }
+    let least = densities.iter().filter_map(|density| Some((density, (*density.forwarding.first()?)?)));
+    let (density, share) = least.min_by(|(_, one), (_, other)| one.mean.total_cmp(&other.mean))?;
+    Some(Judgement::new(
+        "“the farthest node has … the highest probability to forward the packet first” (3.2)",
+        RANKS[0],
+        format!(
+            "{} % of them forward at {}, the least",
+            percent(share, 1),
+            counted(density.nodes as u32, "node")
+        ),
+        verdict,
+    ))
 }
 
 impl Table for NoticeFig5 {
@@ -265,11 +392,41 @@ impl Table for NoticeFig5 {
         for (place, line) in schemes.iter().enumerate() {
             table.row(line.scheme.as_str(), |density| density.schemes[place].rebroadcasts.text(2));
         }
-        Ok(table.with_notes(
+        if settings.can_collide() {
+            table.title("Collisions");
+            for (place, line) in schemes.iter().enumerate() {
+                table.row(line.scheme.as_str(), |density| text(density.schemes[place].collisions, 2));
+            }
+            table.title("Collisions for each packet sent");
+            for (place, line) in schemes.iter().enumerate() {
+                table.row(line.scheme.as_str(), |density| {
+                    text(density.schemes[place].collisions_per_packet, 2)
+                });
+            }
+        }
+        let first = schemes.first().map_or("", |line| &line.scheme);
+        table.title(&format!("Lifetime by {first}, times that by flooding"));
+        for (place, lifetime) in densities.first().iter().flat_map(|density| &density.lifetimes).enumerate() {
+            table.row(lifetime.name(), |density| density.lifetimes[place].ratio.text(2));
+        }
+        table.title(&format!("Forwarding by {first}, % of the nodes that have one parent in common"));
+        for (rank, name) in RANKS.into_iter().enumerate() {
+            table.row(name, |density| percent(density.forwarding[rank], 2));
+        }
+        let collisions = match settings.channel {
+            ChannelName::Ideal => "",
+            ChannelName::Shared => {
+                "collisions: messages that a node does not hear for another signal, each at each such node\n"
+            }
+        };
+        Ok(table.with_notes(&format!(
             "connected: % of the networks in which links connect all nodes · component: % of the \
              nodes that they connect to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” \
-             at every density; all else it draws only",
-        ))
+             at every density; all else it draws only\n{collisions}\
+             lifetime: broadcasts until the first node has spent its energy, by {BROADCASTS} of each topology · sent: \
+             only sending costs ·\nheard: and hearing a signal half as much · fixed, drawn: all from one source, or each \
+             from another · farthest, second: by\nthe distance from the parent",
+        )))
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
@@ -295,7 +452,14 @@ impl Table for NoticeFig5 {
                 within([NEAR - 1.0, 1.0 - NEAR], difference),
             ))
         });
-        near.chain(like_sba).collect()
+        let lifetimes: Vec<(usize, &[Lifetime])> =
+            merged.densities.iter().map(|density| (density.nodes, &density.lifetimes[..])).collect();
+        let collisions = [
+            fewer(&merged.densities, "of a broadcast", |line| line.collisions),
+            fewer(&merged.densities, "of a packet", |line| line.collisions_per_packet),
+        ];
+        let others = lifetime::judged(&lifetimes).into_iter().chain(collisions.into_iter().flatten());
+        near.chain(like_sba).chain(others).chain(farthest(&merged.densities)).collect()
     }
 
     /// A part of the figure by the number of nodes: (a) the reach of all nodes, (b) the rebroadcasts.
@@ -325,11 +489,14 @@ mod tests {
     #[test]
     fn the_papers_number_stands_beside_its_own_k_nodes_and_square_alone() {
         let density = |settings: &Settings, nodes: usize| {
-            let sample = |component: u32, first: (u32, u32)| Sample {
+            let sample = |component: u32, first: (u32, u32, u32)| Sample {
                 component,
-                schemes: [vec![first], vec![(component, 50); 8]].concat(),
+                schemes: [vec![first], vec![(component, 50, 6); 8]].concat(),
+                lifetimes: [1.0; 4],
+                ranks: [(3, 4), (1, 4), (0, 0)],
             };
-            let samples = [sample(nodes as u32, (nodes as u32, 40)), sample(nodes as u32 / 2, (90, 20))];
+            let samples =
+                [sample(nodes as u32, (nodes as u32, 40, 3)), sample(nodes as u32 / 2, (90, 20, 5))];
             settings.density(nodes, &[&samples[0], &samples[1]], settings.schemes(25_000_000))
         };
         let usual = Settings::default();

@@ -1,8 +1,12 @@
 //! Figure 8 of [Jiang 2011]: three robots come to three WFRs. The paper draws the ways in one network, and says that
-//! robots reach the WFRs “for all simulated scenarios” (4.3) and that each WFR gets “one nearby” robot (1). Ours: how
-//! often that is so in many networks, under MRC as published and repaired, without any fault, and how much farther the
-//! robots have to go than under the best of all assignments. Both rules have the same networks.
+//! robots reach the WFRs “for all simulated scenarios” (4.3) and that each WFR gets “one nearby” robot (abstract). Ours:
+//! how often that is so in many networks, under MRC as published and repaired, without any fault, and how much farther
+//! the robots have to go than under the best of all assignments; whether the robot that comes is the nearest by hops (1),
+//! and how many targets are served at once (4.3). Both rules have the same networks.
 
+mod choice;
+
+use self::choice::Choices;
 use super::notice_fig5::{RANGE_M, SIDE_M};
 use super::prelude::*;
 use tautline_field::draw::field::picture;
@@ -21,6 +25,9 @@ const WFRS: usize = 3;
 
 /// Nodes, which the paper does not tell: the middle of its range.
 const NODES: usize = 700;
+
+/// The share that is usual: the paper has no number.
+const USUALLY: f64 = 0.5;
 
 /// The most robots and WFRs: all assignments are tried.
 const MOST: u64 = 6;
@@ -85,6 +92,19 @@ pub struct Line {
     pub notices: Option<Estimate>,
     /// MRC's control packets of a topology: MOVE, RESB, the answers to them and receipts, hop by hop.
     pub control: Option<Estimate>,
+    /// The share of the WFRs served to which a robot came that had the fewest hops of those not on their way when it
+    /// was chosen.
+    pub nearest_available: Option<Estimate>,
+    /// The share of them to which one came that had the fewest hops of all robots at the first call.
+    pub nearest: Option<Estimate>,
+    /// The most WFRs of a topology to which robots are on their way at once.
+    pub at_once: Option<Estimate>,
+    /// Those to which they would be if each robot went to the WFR that it has the fewest hops from, as by Reich's scheme.
+    pub uncoordinated: Option<Estimate>,
+    /// The former less the latter.
+    pub gain: Option<Estimate>,
+    /// The share of the topologies in which several robots would go to one WFR then.
+    pub crowded: Option<Estimate>,
 }
 
 /// A share beside the paper's.
@@ -117,6 +137,7 @@ pub struct Sample {
     last_s: Option<f64>,
     /// NOTICE and control packets.
     packets: (u32, u32),
+    choices: Choices,
 }
 
 impl Settings {
@@ -200,7 +221,8 @@ impl Table for RescueFig8 {
     }
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
-        Ok(Sample::of(&settings.rescue(run.at, run.seed(settings.seed)).map_err(Diagnostic::from)?))
+        let report = settings.rescue(run.at, run.seed(settings.seed)).map_err(Diagnostic::from)?;
+        Ok(Sample { choices: Choices::of(settings, &report).map_err(usage)?, ..Sample::of(&report) })
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
@@ -234,13 +256,22 @@ impl Table for RescueFig8 {
         table.row("seconds to the last", |line| text(line.last_s, 1));
         table.row("NOTICE packets", |line| text(line.notices, 1));
         table.row("control packets", |line| text(line.control, 1));
+        table.row("nearest available, %", |line| percent(line.nearest_available, 2));
+        table.row("nearest of all, %", |line| percent(line.nearest, 2));
+        table.row("targets at once", |line| text(line.at_once, 3));
+        table.row("  each to the nearest", |line| text(line.uncoordinated, 3));
+        table.row("  two to the same, %", |line| percent(line.crowded, 2));
         Ok(table.with_notes(
             "served: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a \
              different one to each ·\npaper: a picture of one topology in which it is so, and “for all simulated \
              scenarios” · RD: metres walked for each metre\nof the shortest ways · over the best assignment: how many \
              times as far the robots are off the WFRs that they come to as\nunder the best of all assignments, where \
              each WFR has a robot of its own · the best assignment: % of these in which it is\nthat one · control \
-             packets: MOVE, RESB, the answers to them and receipts, at each hop · ±, […]: the 95 % interval",
+             packets: MOVE, RESB, the answers to them and receipts, at each hop · nearest available, of all: % \
+             of\nthe WFRs served to which a robot comes that has the fewest hops, of those not on their way when \
+             it is chosen, or of all\nat the first call · targets at once: WFRs to which robots are on their way; \
+             each to the nearest: if each robot went to\nthe one with the fewest hops, as by Reich's scheme; two \
+             to the same: % of the topologies in which two do · ±, […]: the\n95 % interval",
         ))
     }
 
@@ -253,8 +284,38 @@ impl Table for RescueFig8 {
             })
         };
         let served = judged("“for all simulated scenarios” (4.3)", "all served", |line| line.served);
-        let own = judged("“one nearby mobile node” for each WFR (1)", "a robot each", |line| line.own);
-        served.chain(own).collect()
+        let own =
+            judged("“one nearby mobile node” for each WFR (abstract)", "a robot each", |line| line.own);
+        let usually = merged.rules.iter().flat_map(|line| {
+            let readings =
+                [("of those available", line.nearest_available), ("of all robots", line.nearest)];
+            readings.map(|(of, share)| {
+                Judgement::new(
+                    "“usually rescued by an available mobile node with the minimum hop count” (1): more than half",
+                    format!("{}, {of}", line.rule),
+                    format!("{} % of the WFRs served", percent(share, 2)),
+                    below(Some([USUALLY; 2]), share.and_then(|share| share.interval)),
+                )
+            })
+        });
+        let more = merged.rules.iter().map(|line| {
+            let [ours, nearest] = [line.at_once, line.uncoordinated].map(|targets| text(targets, 2));
+            Judgement::new(
+                "“more targets can be served simultaneously” (4.3)",
+                format!("{}, than by the nearest", line.rule),
+                format!("{ours} at once, {nearest} if each robot goes to the nearest"),
+                below(Some([0.0; 2]), line.gain.and_then(|gain| gain.interval)),
+            )
+        });
+        let crowded = merged.rules.first().map(|line| {
+            Judgement::new(
+                "by Reich's scheme robots “may move towards the same target simultaneously” (2.1)",
+                "each to the nearest",
+                format!("so in {} % of the topologies", percent(line.crowded, 2)),
+                Verdict::decided(line.crowded.is_some_and(|share| share.mean > 0.0), false),
+            )
+        });
+        served.chain(own).chain(usually).chain(more).chain(crowded).collect()
     }
 
     fn draw(&self, _: usize, settings: &Settings, _: &Summary) -> Result<String, Halt> {
@@ -293,6 +354,7 @@ impl Sample {
             assigned_m: assigned_m.flatten(),
             last_s: last_ns.filter(|_| is_served).map(tautline_field::rescue::seconds),
             packets: (report.packets.notices, report.packets.control),
+            choices: Choices::default(),
         }
     }
 }
@@ -316,6 +378,16 @@ impl Line {
         let own: Vec<(f64, f64)> = samples.iter().filter_map(|sample| sample.assigned_m).collect();
         let ways = samples.iter().map(|sample| sample.way_m).filter(|&(_, shortest_m)| shortest_m > 0.0);
         let best = share(&own, |(ours_m, best_m)| ours_m - best_m <= SAME_M);
+        let of_served = |such: fn(&Choices) -> u32| {
+            ratio(
+                samples
+                    .iter()
+                    .map(|sample| (f64::from(such(&sample.choices)), f64::from(sample.choices.served))),
+            )
+        };
+        let targets = |of: fn(&Choices) -> f64| {
+            mean(samples.iter().map(|sample| of(&sample.choices))).map(|targets| rounded(targets, 1e4))
+        };
         Self {
             rule,
             served: Comparison::of(samples, |sample| sample.is_served),
@@ -326,6 +398,12 @@ impl Line {
             last_s: mean(samples.iter().filter_map(|sample| sample.last_s)).map(|last| rounded(last, 1e2)),
             notices: mean(samples.iter().map(|sample| f64::from(sample.packets.0))),
             control: mean(samples.iter().map(|sample| f64::from(sample.packets.1))),
+            nearest_available: of_served(|choices| choices.nearest_available),
+            nearest: of_served(|choices| choices.nearest),
+            at_once: targets(|choices| f64::from(choices.at_once)),
+            uncoordinated: targets(|choices| f64::from(choices.uncoordinated)),
+            gain: targets(|choices| f64::from(choices.at_once) - f64::from(choices.uncoordinated)),
+            crowded: share(samples, |sample| sample.choices.crowd > 1).map(|share| rounded(share, 1e4)),
         }
     }
 }
@@ -352,6 +430,14 @@ mod tests {
             assigned_m,
             last_s,
             packets,
+            choices: Choices {
+                served: 3,
+                nearest_available: packets.1.min(3),
+                nearest: 2,
+                at_once: 3,
+                uncoordinated: 1 + packets.1 % 4 / 2,
+                crowd: 2,
+            },
         };
         let samples = [
             sample(true, (150.0, 100.0), Some((105.0, 100.0)), Some(60.0), (10, 2)),
@@ -368,6 +454,12 @@ mod tests {
         assert_eq!(mean(line.best), Some((2, 0.5)), "5 m farther is not the best");
         assert_eq!(mean(line.last_s), Some((3, 70.0)));
         assert_eq!([mean(line.notices), mean(line.control)], [Some((4, 25.0)), Some((4, 5.0))]);
+        assert_eq!(
+            [mean(line.nearest_available), mean(line.nearest)],
+            [Some((4, 0.9167)), Some((4, 0.6667))]
+        );
+        assert_eq!([mean(line.at_once), mean(line.uncoordinated)], [Some((4, 3.0)), Some((4, 1.5))]);
+        assert_eq!([mean(line.gain), mean(line.crowded)], [Some((4, 1.5)), Some((4, 1.0))]);
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub enum Claim {
     SmallerThanReich,
     /// “About the same moving distance … as Reich's scheme” (4.4).
     LikeReich,
+    /// Sheu's robot “needs to move back and forth, which wastes time and energy” (2.1): it walks farther than TAN's.
+    ShorterThanSheu,
 }
 
 /// A claim with its verdict.
@@ -33,14 +35,20 @@ pub(super) const CLOSE: f64 = 0.1;
 
 impl Claim {
     /// All, in the order of every table.
-    pub const ALL: [Self; 4] =
-        [Self::CloseToVerma, Self::ShorterThanVerma, Self::SmallerThanReich, Self::LikeReich];
+    pub const ALL: [Self; 5] = [
+        Self::CloseToVerma,
+        Self::ShorterThanVerma,
+        Self::SmallerThanReich,
+        Self::LikeReich,
+        Self::ShorterThanSheu,
+    ];
 
     /// Whom TAN is compared with.
     pub const fn rival(self) -> Way {
         match self {
             Self::CloseToVerma | Self::ShorterThanVerma => Way::Verma,
             Self::SmallerThanReich | Self::LikeReich => Way::Reich,
+            Self::ShorterThanSheu => Way::Sheu,
         }
     }
 
@@ -48,7 +56,7 @@ impl Claim {
     pub(super) const fn is_of_some(self) -> bool {
         match self {
             Self::SmallerThanReich => true,
-            Self::CloseToVerma | Self::ShorterThanVerma | Self::LikeReich => false,
+            Self::CloseToVerma | Self::ShorterThanVerma | Self::LikeReich | Self::ShorterThanSheu => false,
         }
     }
 
@@ -59,6 +67,9 @@ impl Claim {
             Self::ShorterThanVerma => "“shorter moving distance … than Verma's scheme” (4.4)",
             Self::SmallerThanReich => "RD “smaller … than positionless Reich's scheme for some cases” (4.3)",
             Self::LikeReich => "“about the same moving distance … as Reich's scheme” (4.4)",
+            Self::ShorterThanSheu => {
+                "Sheu's robot “needs to move back and forth, which wastes time and energy” (2.1): RD, against TAN's"
+            }
         }
     }
 
@@ -71,7 +82,9 @@ impl Claim {
             Self::CloseToVerma | Self::LikeReich => {
                 (low >= -CLOSE && high <= CLOSE, low > CLOSE || high < -CLOSE)
             }
-            Self::ShorterThanVerma | Self::SmallerThanReich => (high < 0.0, low > 0.0),
+            Self::ShorterThanVerma | Self::SmallerThanReich | Self::ShorterThanSheu => {
+                (high < 0.0, low > 0.0)
+            }
         };
         Verdict::decided(holds, fails)
     }
@@ -88,11 +101,11 @@ mod tests {
             let difference = Estimate { count: 9, mean: low, interval: Some([low, high]) };
             Claim::ALL.map(|claim| claim.verdict(Some(difference)))
         };
-        assert_eq!(verdicts(-0.05, -0.01), [Holds, Holds, Holds, Holds]);
-        assert_eq!(verdicts(-0.05, 0.05), [Holds, Open, Open, Holds]);
-        assert_eq!(verdicts(0.05, 0.15), [Open, Fails, Fails, Open]);
-        assert_eq!(verdicts(0.4, 0.5), [Fails, Fails, Fails, Fails]);
-        assert_eq!(verdicts(-0.5, -0.4), [Fails, Holds, Holds, Fails]);
-        assert_eq!(Claim::ALL.map(|claim| claim.verdict(None)), [Open; 4]);
+        assert_eq!(verdicts(-0.05, -0.01), [Holds, Holds, Holds, Holds, Holds]);
+        assert_eq!(verdicts(-0.05, 0.05), [Holds, Open, Open, Holds, Open]);
+        assert_eq!(verdicts(0.05, 0.15), [Open, Fails, Fails, Open, Fails]);
+        assert_eq!(verdicts(0.4, 0.5), [Fails, Fails, Fails, Fails, Fails]);
+        assert_eq!(verdicts(-0.5, -0.4), [Fails, Holds, Holds, Fails, Holds]);
+        assert_eq!(Claim::ALL.map(|claim| claim.verdict(None)), [Open; 5]);
     }
 }

@@ -1,5 +1,7 @@
 //! The drive of one team through a lattice, and its outcome.
 
+use std::collections::BTreeMap;
+
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 
@@ -55,6 +57,36 @@ pub(super) fn driven(rule: Rule, layout: &Layout, starts: Vec<Cell>, pace: Pace,
     outcome.nodes.sort_unstable();
     outcome.is_cut = course.apart() > kit::reach_millimetres(rule.reach).pow(2);
     outcome
+}
+
+/// The runs of two robots that start at one node, as [`driven`], and never talk: what one has found, both have.
+pub(super) fn silent(rule: Rule, layout: &Layout, start: Cell, pace: Pace, seeds: [u64; 2]) -> Outcome {
+    let (mut paths, mut nodes) = (BTreeMap::new(), BTreeMap::from([(start, 0)]));
+    for seed in seeds {
+        let Ok(mut course) = kit::course(rule, layout, &[start], pace, seed) else { continue };
+        let (mut driven, mut idle) = (0, 0);
+        while driven < PATHS
+            && idle < PATIENCE
+            && let Some(drive) = course.drive()
+        {
+            // No node is found on a path that was driven before.
+            if !drive.is_new {
+                idle += 1;
+                continue;
+            }
+            (driven, idle) = (driven + 1, 0);
+            let [_, end] = drive.time;
+            let path = [drive.from.min(drive.to), drive.from.max(drive.to)];
+            paths.entry(path).and_modify(|first: &mut u64| *first = end.min(*first)).or_insert(end);
+            nodes.entry(drive.to).and_modify(|first: &mut u64| *first = end.min(*first)).or_insert(end);
+        }
+    }
+    let sorted = |mut times: Vec<u64>| {
+        times.sort_unstable();
+        times
+    };
+    let (paths, nodes) = (sorted(paths.into_values().collect()), sorted(nodes.into_values().collect()));
+    Outcome { paths, overlaps: Vec::new(), nodes, is_cut: false }
 }
 
 impl Outcome {

@@ -69,6 +69,8 @@ pub struct Summary {
     pub lines: Vec<Line>,
     /// Two robots against one, and repaired against published, for each family.
     pub races: Vec<Race>,
+    /// Two robots as published against two that never talk, for each family.
+    pub silence: Vec<Contest>,
     pub(super) paper: Vec<PrintedFigure>,
 }
 
@@ -125,6 +127,46 @@ pub struct Race {
     pub behind: Option<Estimate>,
 }
 
+/// Two robots as published against two under the same rule, each by itself, that never talk.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Contest {
+    /// The family.
+    pub family: &'static str,
+    /// The rule.
+    pub rule: TeamRule,
+    /// Of all layouts, those in which robots that talk are sooner, or the others never there, in percent: when all nodes
+    /// are found where the figure is of time, else when 88 % of the paths are explored.
+    pub ahead: Option<Estimate>,
+    /// Of all layouts, those in which it is the other way round, in percent.
+    pub behind: Option<Estimate>,
+}
+
+/// Of all layouts, in percent, those in which the second of two teams is sooner, or the first never there; and those in
+/// which it is the other way round.
+fn first(all: &[[Option<u64>; 2]]) -> [Option<Estimate>; 2] {
+    let is_sooner =
+        |one: Option<u64>, other: Option<u64>| one.is_some_and(|one| other.is_none_or(|other| one < other));
+    let ahead = in_percent(all, |&[other, team]| is_sooner(team, other));
+    [ahead, in_percent(all, |&[other, team]| is_sooner(other, team))]
+}
+
+impl Contest {
+    pub(super) fn of(
+        figure: Figure,
+        family: Family,
+        rule: TeamRule,
+        [silent, team]: [&[&Outcome]; 2],
+    ) -> Self {
+        let when = |outcome: &Outcome| match figure {
+            Figure::Time => outcome.found(family.nodes()),
+            Figure::Overlap => outcome.paths.get(EXPLORED - 1).copied(),
+        };
+        let all: Vec<_> = silent.iter().zip(team).map(|(silent, team)| [when(silent), when(team)]).collect();
+        let [ahead, behind] = first(&all);
+        Self { family: family.name, rule, ahead, behind }
+    }
+}
+
 impl Line {
     pub(super) fn of(family: Family, team: Team, outcomes: &[&Outcome]) -> Self {
         let (is_team, all_nodes) = (team.robots > 1, family.nodes());
@@ -159,19 +201,17 @@ impl Race {
         let all: Vec<[Option<u64>; 2]> =
             other.iter().zip(team).map(|(other, team)| [found(other), found(team)]).collect();
         let both: Vec<[u64; 2]> = all.iter().filter_map(|&[other, team]| Some([other?, team?])).collect();
-        let is_sooner = |one: Option<u64>, other: Option<u64>| {
-            one.is_some_and(|one| other.is_none_or(|other| one < other))
-        };
-        let [first, second] = places.map(|place| TEAMS[place]);
+        let [ahead, behind] = first(&all);
+        let [other, team] = places.map(|place| TEAMS[place]);
         Self {
             family: family.name,
-            other: first,
-            team: second,
+            other,
+            team,
             gain: mean(both.iter().map(|&[other, team]| seconds(other) - seconds(team))),
             sooner: in_percent(&both, |[other, team]| team < other),
             both: in_percent(&all, |times| times.iter().all(Option::is_some)),
-            ahead: in_percent(&all, |&[other, team]| is_sooner(team, other)),
-            behind: in_percent(&all, |&[other, team]| is_sooner(other, team)),
+            ahead,
+            behind,
         }
     }
 }

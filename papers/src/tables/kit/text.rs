@@ -2,7 +2,7 @@
 
 use super::super::prelude::*;
 use super::drive::EXPLORED;
-use super::figure::{Figure, Line, Race, Settings, Summary, Team, TeamRule};
+use super::figure::{Contest, Figure, Line, Race, Settings, Summary, Team, TeamRule};
 use super::lattice::PATHS;
 
 /// The paper's numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot and
@@ -59,6 +59,24 @@ pub(super) fn sooner(races: &[Race]) -> impl Iterator<Item = Judgement> + '_ {
                 text(race.ahead, 1),
                 text(race.behind, 1)
             ),
+            below(behind, ahead),
+        )
+    })
+}
+
+/// Whether two robots that talk are sooner than two that do not.
+pub(super) fn talking(figure: Figure, silence: &[Contest]) -> impl Iterator<Item = Judgement> + '_ {
+    let goal = match figure {
+        Figure::Time => "all nodes",
+        Figure::Overlap => "88 % of the paths",
+    };
+    silence.iter().map(move |contest| {
+        let [ahead, behind] = [contest.ahead, contest.behind].map(|share| share.and_then(|share| share.interval));
+        let [talking, silent] = [contest.ahead, contest.behind].map(|share| text(share, 1));
+        Judgement::new(
+            format!("“Communication between agents benefits increase of the performance” (2): two sooner with it, {goal}"),
+            format!("{}, {}", contest.rule.word(), contest.family),
+            format!("sooner with it in {talking} % of the layouts, without it in {silent} %"),
             below(behind, ahead),
         )
     })
