@@ -6,8 +6,8 @@
 //!
 //! The paper says of its figures that RD of TAN is very close to Verma's and smaller than Reich's in some cases (4.3),
 //! and of its Table 2 that TAN's way is shorter than Verma's and about as long as Reich's (4.4); of Sheu's robot, that
-//! going back and forth wastes time and energy (2.1). Each is decided by the 95 % interval of the difference in the same
-//! topologies.
+//! going back and forth wastes time and energy (2.1). Each is decided by the 95 % interval of the difference in the
+//! same topologies.
 
 mod claims;
 mod density;

@@ -33,7 +33,7 @@ use tautline_sim::kit::{self, Pace};
 /// compares them, and two repaired robots against two by each reading.
 const RACES: [[usize; 2]; 5] = [[0, 1], [2, 3], [4, 5], [1, 5], [3, 5]];
 
-/// Places in [`TEAMS`] of two robots as published, by each reading; their runs without a word follow those of the teams.
+/// Places in [`TEAMS`] of two robots as published, by each reading; their runs without a word follow the teams' own.
 const TALKING: [usize; 2] = [1, 3];
 
 /// The seed of the second of two robots that do not talk is so far from that of the first.

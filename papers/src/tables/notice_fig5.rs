@@ -2,8 +2,8 @@
 //! and density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach
 //! within the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same
 //! sources. Beside the figure stand three more promises of the paper: that k-FNF prolongs the lifetime of the network
-//! (1), that other schemes than flooding have fewer collisions (2.2), and that of a sender's hearers the farthest is the
-//! likeliest to forward (3.2).
+//! (1), that other schemes than flooding have fewer collisions (2.2), and that of a sender's hearers the farthest is
+//! the likeliest to forward (3.2).
 
 mod lifetime;
 
@@ -424,8 +424,8 @@ impl Table for NoticeFig5 {
              nodes that they connect to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” \
              at every density; all else it draws only\n{collisions}\
              lifetime: broadcasts until the first node has spent its energy, by {BROADCASTS} of each topology · sent: \
-             only sending costs ·\nheard: and hearing a signal half as much · fixed, drawn: all from one source, or each \
-             from another · farthest, second: by\nthe distance from the parent",
+             only sending costs ·\nheard: and hearing a signal half as much · fixed, drawn: all from one source, or \
+             each from another · farthest, second: by\nthe distance from the parent",
         )))
     }
 

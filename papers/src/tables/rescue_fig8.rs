@@ -1,8 +1,8 @@
 //! Figure 8 of [Jiang 2011]: three robots come to three WFRs. The paper draws the ways in one network, and says that
-//! robots reach the WFRs “for all simulated scenarios” (4.3) and that each WFR gets “one nearby” robot (abstract). Ours:
-//! how often that is so in many networks, under MRC as published and repaired, without any fault, and how much farther
-//! the robots have to go than under the best of all assignments; whether the robot that comes is the nearest by hops (1),
-//! and how many targets are served at once (4.3). Both rules have the same networks.
+//! robots reach the WFRs “for all simulated scenarios” (4.3) and that each WFR gets “one nearby” robot (abstract).
+//! Ours: how often that is so in many networks, under MRC as published and repaired, without any fault, and how much
+//! farther the robots have to go than under the best of all assignments; whether the robot that comes is the nearest by
+//! hops (1), and how many targets are served at once (4.3). Both rules have the same networks.
 
 mod choice;
 
@@ -99,7 +99,7 @@ pub struct Line {
     pub nearest: Option<Estimate>,
     /// The most WFRs of a topology to which robots are on their way at once.
     pub at_once: Option<Estimate>,
-    /// Those to which they would be if each robot went to the WFR that it has the fewest hops from, as by Reich's scheme.
+    /// Those to which they would be if each robot went to the WFR that it has the fewest hops from, by Reich's scheme.
     pub uncoordinated: Option<Estimate>,
     /// The former less the latter.
     pub gain: Option<Estimate>,

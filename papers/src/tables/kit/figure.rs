@@ -134,8 +134,8 @@ pub struct Contest {
     pub family: &'static str,
     /// The rule.
     pub rule: TeamRule,
-    /// Of all layouts, those in which robots that talk are sooner, or the others never there, in percent: when all nodes
-    /// are found where the figure is of time, else when 88 % of the paths are explored.
+    /// Of all layouts, those in which robots that talk are sooner, or the others never there, in percent: when all
+    /// nodes are found where the figure is of time, else when 88 % of the paths are explored.
     pub ahead: Option<Estimate>,
     /// Of all layouts, those in which it is the other way round, in percent.
     pub behind: Option<Estimate>,

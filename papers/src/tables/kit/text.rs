@@ -73,8 +73,9 @@ pub(super) fn talking(figure: Figure, silence: &[Contest]) -> impl Iterator<Item
     silence.iter().map(move |contest| {
         let [ahead, behind] = [contest.ahead, contest.behind].map(|share| share.and_then(|share| share.interval));
         let [talking, silent] = [contest.ahead, contest.behind].map(|share| text(share, 1));
+        let sentence = "“Communication between agents benefits increase of the performance” (2): two sooner with it";
         Judgement::new(
-            format!("“Communication between agents benefits increase of the performance” (2): two sooner with it, {goal}"),
+            format!("{sentence}, {goal}"),
             format!("{}, {}", contest.rule.word(), contest.family),
             format!("sooner with it in {talking} % of the layouts, without it in {silent} %"),
             below(behind, ahead),
