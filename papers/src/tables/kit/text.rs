@@ -71,9 +71,11 @@ pub(super) fn talking(figure: Figure, silence: &[Contest]) -> impl Iterator<Item
         Figure::Overlap => "88 % of the paths",
     };
     silence.iter().map(move |contest| {
-        let [ahead, behind] = [contest.ahead, contest.behind].map(|share| share.and_then(|share| share.interval));
+        let [ahead, behind] =
+            [contest.ahead, contest.behind].map(|share| share.and_then(|share| share.interval));
         let [talking, silent] = [contest.ahead, contest.behind].map(|share| text(share, 1));
-        let sentence = "“Communication between agents benefits increase of the performance” (2): two sooner with it";
+        let sentence =
+            "“Communication between agents benefits increase of the performance” (2): two sooner with it";
         Judgement::new(
             format!("{sentence}, {goal}"),
             format!("{}, {}", contest.rule.word(), contest.family),
