@@ -230,7 +230,7 @@ mod tests {
         Ring::locate(columns * coordinate, rows * coordinate, SIDE)
     }
 
-    /// The lines of `among` in which each sensor beside an agent, or each at a corner, is taken for the one of its cell.
+    /// The lines of `among` in which each sensor beside an agent, or each at a corner, is taken for that of its cell.
     fn known_lines(is_corner: bool, among: RangeInclusive<i64>) -> RangeInclusive<i64> {
         let places = || (0..).zip(PLACES).filter(|(place, _)| (place % 2 == 1) == is_corner);
         let is_known =
