@@ -153,10 +153,27 @@ impl Table for LocateFig8 {
                 Judgement::new(words, what, format!("difference {} m", difference.text(3)), verdict)
             };
         let (falls, grows) = ("the error falls with the swarm", "the error grows from 1 robot to 8");
+        let fixes: Vec<[f64; SOLVERS.len()]> = teams.iter().flatten().copied().collect();
+        let farther = share(&fixes, |errors| errors[1] > errors[0]);
+        let each = Judgement::new(
+            "“will reduce the localization error” (5), of each fix",
+            "pso against closed-form",
+            format!("farther from the robot in {} % of {} fixes", percent(farther, 1), fixes.len()),
+            always(farther.map(Estimate::rest)),
+        );
+        let least_squares = (MOST, 2);
         let sentences = vec![
             judged(falls, "8 robots, mean of the team", mean_of, [without, with], -1.0),
             judged(grows, "pso, mean of the team", mean_of, [one, with], 1.0),
             judged(grows, "pso, worst robot of the team", worst_of, [one, with], 1.0),
+            each,
+            judged(
+                "“PSO provides more accurate results” (4.2), than least squares",
+                "8 robots, mean of the team",
+                mean_of,
+                [least_squares, with],
+                -1.0,
+            ),
         ];
         Ok(Summary { field: settings.clone(), sizes: ROBOTS.map(size).into(), sentences })
     }
