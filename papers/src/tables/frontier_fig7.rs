@@ -70,6 +70,10 @@ pub struct Outcome {
     /// Team moves in which a robot entered as its frontier cell what one had entered before, and how many these are if
     /// no robot hears another one; for some rules.
     again: Option<[u32; 2]>,
+    /// Cells that all robots together enter until every cell is explored, if all are.
+    entered: Option<u32>,
+    /// The team moves and the entered cells until then if no robot hears another one, for some rules.
+    unheard: Option<[u32; 2]>,
 }
 
 /// The whole figure.
@@ -103,6 +107,16 @@ pub struct Line {
     pub again: Option<Estimate>,
     /// How many more of them there are on the same layouts if no robot hears of another one's map.
     pub saved: Option<Estimate>,
+    /// Layouts on which the team takes more team moves than one robot of the same rule, or explores fewer cells, in
+    /// percent.
+    pub worse: Option<Estimate>,
+    /// How many more team moves it takes on the same layouts if no robot hears of another one's map, over those of
+    /// which both explore every cell.
+    pub sooner: Option<Estimate>,
+    /// Cells that all robots together enter until every cell is explored, over the runs that explore all.
+    pub entered: Option<Estimate>,
+    /// How many more of them there are on the layouts of `sooner` if no robot hears of another one's map.
+    pub spared: Option<Estimate>,
 }
 
 impl Settings {
@@ -152,14 +166,17 @@ impl Table for FrontierFig7 {
             follow(rule, &layout, &starts[..robots.into()], Options { loss, ..Options::default() }, seed)
         };
         let measured = teams(settings).map(|(rule, robots)| {
-            let report = with(rule, robots, Probability::NEVER)?;
+            let (report, entered) = with(rule, robots, Probability::NEVER)?;
             let tells = TELLING.contains(&rule.as_str());
             let alone = tells.then(|| with(rule, robots, Probability::ALWAYS)).transpose()?;
             Ok(Outcome {
                 moves: report.reached(Milestone::Whole),
                 explored: report.explored * 1000 / report.cells,
                 is_double: breaks(&report, ALONE) > 0,
-                again: alone.map(|alone| [report, alone].map(|report| breaks(&report, ONCE))),
+                again: alone.as_ref().map(|(alone, _)| [&report, alone].map(|report| breaks(report, ONCE))),
+                entered,
+                unheard: alone
+                    .and_then(|(alone, entered)| Some([alone.reached(Milestone::Whole)?, entered?])),
             })
         });
         measured.collect()
@@ -171,7 +188,8 @@ impl Table for FrontierFig7 {
             results.iter().filter_map(|(_, outcomes)| outcomes.get(place?).copied()).collect()
         };
         let line = |(rule, robots)| {
-            Line::of(rule, robots, &outcomes((rule, robots)), &outcomes((RuleId::REPAIRED, robots)))
+            let others = [(RuleId::REPAIRED, robots), (rule, 1)].map(&outcomes);
+            Line::of(rule, robots, &outcomes((rule, robots)), &others)
         };
         Ok(Summary { settings: settings.clone(), lines: teams(settings).map(line).collect() })
     }
@@ -182,7 +200,7 @@ impl Table for FrontierFig7 {
         let moves = format!(
             "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
         );
-        let parts: [Part<'_>; 6] = [
+        let parts: [Part<'_>; 10] = [
             (&moves, |line| line.moves),
             (
                 "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell",
@@ -193,6 +211,18 @@ impl Table for FrontierFig7 {
             ("Team moves in which a robot explores a cell that one has entered before", |line| line.again),
             ("How many more of them on the same layouts if no robot hears another one's map", |line| {
                 line.saved
+            }),
+            (
+                "Layouts on which robots are slower than one of the same rule, or explore fewer cells, in %",
+                |line| line.worse,
+            ),
+            (
+                "How many more team moves if no robot hears another one's map, on the layouts that both explore whole",
+                |line| line.sooner,
+            ),
+            ("Cells that all robots together enter until every cell is explored", |line| line.entered),
+            ("How many more of them on those layouts if no robot hears another one's map", |line| {
+                line.spared
             }),
         ];
         let part = |(title, of): Part<'_>| {
@@ -209,6 +239,7 @@ impl Table for FrontierFig7 {
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
         let mut sentences = judged(&merged.lines);
         sentences.extend(best_of_all(&merged.lines));
+        sentences.extend(of_teams(&merged.lines));
         sentences
     }
 
@@ -262,24 +293,40 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
 /// Layouts that are drawn until one is connected.
 const MOST_DRAWN: u32 = 100_000;
 
+/// A run, and how many cells its robots enter together until every cell is explored.
 fn follow(
     rule: RuleId,
     layout: &Layout,
     starts: &[Cell],
     options: Options,
     seed: u64,
-) -> Result<Report, Halt> {
+) -> Result<(Report, Option<u32>), Halt> {
     let mut layout = layout.clone();
     let base = starts[0];
     layout.place_base(base)?;
     let limits = Limits { max_moves: NonZeroU32::new(MOST_MOVES), ..Limits::default() };
     let setup = Setup::new(&FRONTIER, rule, starts.len() as u16, layout, base);
-    explore(&Setup { starts: Some(starts.to_vec()), seed, limits, options, ..setup }, &mut |_| Ok(()))
+    let setup = Setup { starts: Some(starts.to_vec()), seed, limits, options, ..setup };
+    let mut entered = Vec::new();
+    let report = explore(&setup, &mut |made| {
+        entered.push(count(made.before.iter().zip(&made.frame.cells), |(before, now)| before != now));
+        Ok(())
+    })?;
+    let whole = report.reached(Milestone::Whole).map(|moves| entered.iter().take(moves as usize).sum());
+    Ok((report, whole))
 }
 
 /// The team moves of a run that break this clause.
 fn breaks(report: &Report, clause: ClauseId) -> u32 {
     report.violations.iter().filter(|violation| violation.clause == clause).count() as u32
+}
+
+impl Outcome {
+    /// Whether it explores fewer cells than `other` on the same layout, or all of them in more team moves.
+    fn is_worse(&self, other: &Self) -> bool {
+        let is_slower = self.moves.zip(other.moves).is_some_and(|(own, other)| own > other);
+        is_slower || self.explored < other.explored
+    }
 }
 
 impl Line {
@@ -288,9 +335,15 @@ impl Line {
         self.moves.map_or(f64::INFINITY, |moves| moves.mean)
     }
 
-    fn of(rule: RuleId, robots: u16, outcomes: &[Outcome], repaired: &[Outcome]) -> Self {
+    /// Beside these outcomes those of repaired robots, and of one robot of the same rule.
+    fn of(rule: RuleId, robots: u16, outcomes: &[Outcome], [repaired, one]: &[Vec<Outcome>; 2]) -> Self {
         let percent =
             |is_such: fn(&Outcome) -> bool| share(outcomes, is_such).map(|share| share.times(100.0));
+        let worse = share(outcomes.iter().zip(one), |(own, one)| own.is_worse(one));
+        let unheard = |place: usize, heard: fn(&Outcome) -> Option<u32>| {
+            let more = move |one: &Outcome| Some(f64::from(one.unheard?[place]) - f64::from(heard(one)?));
+            mean(outcomes.iter().filter_map(more))
+        };
         let more = |(own, other): (&Outcome, &Outcome)| Some(f64::from(own.moves?) - f64::from(other.moves?));
         let again = |one: &Outcome| one.again.map(|[heard, _]| f64::from(heard));
         let saved = |one: &Outcome| one.again.map(|[heard, alone]| f64::from(alone) - f64::from(heard));
@@ -304,6 +357,10 @@ impl Line {
             double: percent(|outcome| outcome.is_double),
             again: mean(outcomes.iter().filter_map(again)),
             saved: mean(outcomes.iter().filter_map(saved)),
+            worse: worse.map(|share| share.times(100.0)),
+            sooner: unheard(0, |one| one.moves),
+            entered: mean(outcomes.iter().filter_map(|one| one.entered.map(f64::from))),
+            spared: unheard(1, |one| one.entered),
         }
     }
 }
@@ -404,4 +461,52 @@ fn best_of_all(lines: &[Line]) -> Vec<Judgement> {
         .into_iter()
         .filter_map(judged)
         .collect()
+}
+
+/// The paper's sentences about several robots beside one, and about robots that share their maps beside such that do
+/// not. The energy of a team is taken to be the cells that its robots enter.
+fn of_teams(lines: &[Line]) -> Vec<Judgement> {
+    let ends = |estimate: Option<Estimate>| estimate.and_then(|estimate| estimate.interval);
+    let nothing = Some([0.0, 0.0]);
+    let is_judged = |line: &&Line| {
+        ["published", "repaired", "wanders"].contains(&line.rule.as_str()) && [2, BEST].contains(&line.robots)
+    };
+    let teams = lines.iter().filter(is_judged);
+    let one = |line: &Line| lines.iter().find(|one| one.rule == line.rule && one.robots == 1);
+    let judged = |line: &Line| {
+        let one = one(line);
+        let worse = line.worse.map(|worse| worse.times(0.01).rest());
+        let [moves, entered] = [|line: &Line| line.moves, |line: &Line| line.entered].map(|of| {
+            (text(of(line), 1), text(one.and_then(of), 1), below(ends(of(line)), ends(one.and_then(of))))
+        });
+        let more = |what: &str, more: Option<Estimate>| format!("{} more {what} without", text(more, 1));
+        [
+            (
+                "“always advantages over single robot exploration strategies as the total time … will be reduced” (1)",
+                format!("on {} % of the layouts slower, or with fewer cells explored", text(line.worse, 1)),
+                always(worse),
+            ),
+            ("the same, in the mean", format!("{} team moves, one robot {}", moves.0, moves.1), moves.2),
+            (
+                "shared maps: “complete the exploration in lesser time” (4.5)",
+                more("team moves", line.sooner),
+                below(nothing, ends(line.sooner)),
+            ),
+            (
+                "“which is energy efficient” (4.5), than without maps: fewer cells entered",
+                more("cells", line.spared),
+                below(nothing, ends(line.spared)),
+            ),
+            (
+                "“which is energy efficient” (4.5), than one robot: fewer cells entered",
+                format!("{} cells, one robot {}", entered.0, entered.1),
+                entered.2,
+            ),
+        ]
+        .map(|(sentence, measured, verdict)| {
+            Judgement::new(sentence, format!("{} robots, {}", line.robots, line.rule), measured, verdict)
+        })
+    };
+    let judged: Vec<[Judgement; 5]> = teams.map(judged).collect();
+    (0..5).flat_map(|place| judged.iter().map(move |team| team[place].clone())).collect()
 }
