@@ -15,7 +15,7 @@ conditions! {
         /// unexplored one.
         Route,
         /// A cell that a robot has tried to enter in vain is stored as an obstacle. Taken literally, the robot goes on
-        /// “until it reaches the midpoint”.
+        /// “until it reaches the destination which is the midpoint of the frontier cell”.
         Record,
         /// Repair: a robot looks before it enters, and enters no cell that has a robot in it, or one that is entering
         /// it.
