@@ -29,6 +29,7 @@ mod rescue;
 mod rocq;
 mod search;
 mod smallest;
+mod swarm;
 mod teams;
 mod ties;
 mod trap;

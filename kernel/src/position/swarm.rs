@@ -234,15 +234,6 @@ impl<'a> Swarm<'a> {
         self.particles.iter().map(|particle| particle.at)
     }
 
-    /// The zone of the particles: the root mean square of their distances to their mean, in metres.
-    pub fn zone_m(&self) -> f64 {
-        let (count, sum) = self.places().fold((0.0, Point::new(0.0, 0.0)), |(count, sum), at| {
-            (count + 1.0, Point::new(sum.x_m + at.x_m, sum.y_m + at.y_m))
-        });
-        let middle = Point::new(sum.x_m / count, sum.y_m / count);
-        libm::sqrt(self.places().fold(0.0, |sum, at| sum + at.squared_distance(middle)) / count)
-    }
-
     /// The best position so far.
     pub const fn best(&self) -> Point {
         self.best

@@ -7,7 +7,7 @@
 //! | [`Links`] | “E_S … This restriction is applied for all of the tested algorithms” (D) | E_S |
 //! | [`Cells`] | “punishes the configurations in which the robots come too close” (I.B) | distinct outside the base |
 //! | [`Moves`] | “4^(N−1) team-configurations” (C) | 5: seven robots cannot leave the base by four sides |
-//! | [`Weights`] | the distance to the frontier, “with equal weight” (C, E) | 1 for the distance, 0 for a new cell, 1 for a leader |
+//! | [`Weights`] | the distance to the frontier, “with equal weight” (C, E) | 1, none for a new cell, no leader |
 //! | [`Deadlock`] | “sooner or later” (E) | nothing but chance |
 //! | `patience` | not given | 1000 team moves without gain: the team is taken to be stuck |
 

@@ -486,7 +486,11 @@ fn of_teams(lines: &[Line]) -> Vec<Judgement> {
                 format!("on {} % of the layouts slower, or with fewer cells explored", text(line.worse, 1)),
                 always(worse),
             ),
-            ("the same, in the mean", format!("{} team moves, one robot {}", moves.0, moves.1), moves.2),
+            (
+                "“the total time … will be reduced” (1), in the mean",
+                format!("{} team moves, one robot {}", moves.0, moves.1),
+                moves.2,
+            ),
             (
                 "shared maps: “complete the exploration in lesser time” (4.5)",
                 more("team moves", line.sooner),

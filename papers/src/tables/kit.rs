@@ -44,7 +44,7 @@ const ABOUT: Description = Description {
     examples: &["kit-fig14 --svg overlap.svg", "kit-fig9 --runs 100 --format json"],
     doing: "driving",
     pictures: &[("svg", "Store a chart")],
-    takes: "some seconds",
+    takes: "a minute",
     ..Description::NOTHING
 };
 

@@ -126,7 +126,7 @@ pub struct End {
     pub error_interval_m: Option<[f64; 2]>,
     /// The median root mean square of the distances of the particles to their mean at the start, in metres.
     pub first_zone_m: f64,
-    /// The same in the end.
+    /// Such a median in the end.
     pub zone_m: f64,
     /// The share of runs in which it is less than at the start.
     pub narrower: Estimate,
@@ -387,19 +387,19 @@ fn after(
         let around = closed_form(&ranges).map_err(refused)?;
         let mut swarm =
             Swarm::start(&ranges, around, parameters, &mut particles, &mut oracle).map_err(refused)?;
-        let first_m = swarm.zone_m();
-        let (mut zone_m, mut is_always) = (first_m, parameters.iterations > 0);
+        let first_m = zone_m(&swarm);
+        let (mut last_m, mut is_always) = (first_m, parameters.iterations > 0);
         for _ in 0..parameters.iterations {
             swarm.step(&mut oracle);
-            let now_m = swarm.zone_m();
-            is_always &= now_m < zone_m;
-            zone_m = now_m;
+            let now_m = zone_m(&swarm);
+            is_always &= now_m < last_m;
+            last_m = now_m;
         }
         to_optimum.push(swarm.best().distance_m(optimum));
         to_robot.push(swarm.best().distance_m(at));
         first_zones.push(first_m);
-        zones.push(zone_m);
-        narrower += u32::from(zone_m < first_m);
+        zones.push(last_m);
+        narrower += u32::from(last_m < first_m);
         always_narrower += u32::from(is_always);
     }
     for values in [&mut to_optimum, &mut to_robot, &mut first_zones, &mut zones] {
@@ -421,6 +421,16 @@ fn after(
         narrower: of_all(narrower),
         always_narrower: of_all(always_narrower),
     })
+}
+
+/// The zone of the particles: the root mean square of their distances to their mean, in metres.
+fn zone_m(swarm: &Swarm<'_>) -> f64 {
+    let (count, sum) = swarm.places().fold((0.0, Point::new(0.0, 0.0)), |(count, sum), at| {
+        (count + 1.0, Point::new(sum.x_m + at.x_m, sum.y_m + at.y_m))
+    });
+    let middle = Point::new(sum.x_m / count, sum.y_m / count);
+    let squares = swarm.places().map(|at| (at.x_m - middle.x_m).powi(2) + (at.y_m - middle.y_m).powi(2));
+    (squares.sum::<f64>() / count).sqrt()
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@
 mod choice;
 
 use self::choice::Choices;
+use tautline_kernel::notice::Scheme;
+
 use super::notice_fig5::{RANGE_M, SIDE_M};
 use super::prelude::*;
 use tautline_field::draw::field::picture;
@@ -222,7 +224,8 @@ impl Table for RescueFig8 {
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
         let report = settings.rescue(run.at, run.seed(settings.seed)).map_err(Diagnostic::from)?;
-        Ok(Sample { choices: Choices::of(settings, &report).map_err(usage)?, ..Sample::of(&report) })
+        let scheme = Scheme::Farthest { k: Some(settings.k.0) };
+        Ok(Sample { choices: Choices::of(scheme, &report).map_err(usage)?, ..Sample::of(&report) })
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {

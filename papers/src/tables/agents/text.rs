@@ -22,111 +22,109 @@ pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
 
 /// The sentences of V.B, of every point of the figure.
 pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
-    let ([bricks, _, ants, ants_published, ..], [beside, in_count]) = (TEAMS, READINGS);
-    let both = [bricks, BRICKS_PUBLISHED];
-    let of = |team: Team| merged.lines.iter().filter(move |line| line.team == team);
+    match figure {
+        Figure::Agents => by_agents(merged),
+        Figure::Area => by_area(merged),
+        Figure::Ideal => ideal(merged),
+    }
+}
+
+/// Brick&Mortar: ours, and as published.
+const BOTH: [Team; 2] = {
+    let [bricks, ..] = TEAMS;
+    [bricks, BRICKS_PUBLISHED]
+};
+
+/// The lines of a team, point by point.
+fn lines_of(merged: &Summary, team: Team) -> impl DoubleEndedIterator<Item = &Line> {
+    merged.lines.iter().filter(move |line| line.team == team)
+}
+
+/// The sentences about Fig. 11.
+fn by_agents(merged: &Summary) -> Vec<Judgement> {
+    let ([_, _, ants, ants_published, ..], [beside, in_count]) = (TEAMS, READINGS);
     let always_whole = |line| always(Estimate::share(whole(line), merged.layouts));
     let fewest = |team| {
-        let fewest = of(team).map(whole).min().unwrap_or(0);
+        let fewest = lines_of(merged, team).map(whole).min().unwrap_or(0);
         format!("everything in {fewest} of {} runs within their steps, at the worst point", merged.layouts)
     };
-    match figure {
-        Figure::Agents => {
-            let below_all = both.map(|bricks| {
-                let reaches = of(bricks).map(always_whole).fold(Verdict::Fails, Verdict::or);
-                let never = of(bricks).all(|line| whole(line) < merged.layouts);
-                let explored = of(bricks).map(|line| line.explored);
-                let most = explored.max_by(|one, other| one.mean.total_cmp(&other.mean));
-                Judgement::new(
-                    "“adding more agents … without however reaching the 100% mark”",
-                    bricks.name(),
-                    format!("at most {} %", Estimate::text_or_dash(most, 1)),
-                    Verdict::decided(never, reaches == Verdict::Holds),
-                )
-            });
-            let ants = [ants, ants_published, beside, in_count].map(|team| {
-                let verdict = of(team).map(always_whole).fold(Verdict::Holds, Verdict::and);
-                let sentence = "“Ants always manage to explore 100% of the area's cells”";
-                Judgement::new(sentence, team.name(), fewest(team), verdict)
-            });
-            let better = both.into_iter().filter_map(|bricks| {
-                let (one, most) = (of(bricks).next()?, of(bricks).next_back()?);
-                Some(Judgement::new(
-                    "“Adding more agents allows us to achieve better results”",
-                    bricks.name(),
-                    format!(
-                        "{} % by one, {} % by {}",
-                        one.explored.text(1),
-                        most.explored.text(1),
-                        most.agents
-                    ),
-                    below(one.explored.interval, most.explored.interval),
-                ))
-            });
-            let papers = [ants_published, beside, in_count];
-            let affected = papers.iter().filter_map(|&team| share(merged, team));
-            let late = papers.iter().filter_map(|&team| time(merged, team));
-            let compromised = both.into_iter().flat_map(|bricks| compromised(merged, bricks));
-            let rivals = pairs(papers, both).filter_map(|(ants, bricks)| more_robust(merged, ants, bricks));
-            better
-                .chain(below_all)
-                .chain(ants)
-                .chain(affected)
-                .chain(late)
-                .chain(compromised)
-                .chain(rivals)
-                .collect()
-        }
-        Figure::Area => {
-            let explored = |line: &Line| format!("{} % of {}x{1} cells", line.explored.text(1), line.side);
-            let judged = both.into_iter().filter_map(|bricks| {
-                let (first, last) = (of(bricks).next()?, of(bricks).next_back()?);
-                Some(Judgement::new(
-                    "“as we increase the area size, the agents have more opportunities to be trapped”",
-                    bricks.name(),
-                    format!("{}, {}", explored(first), explored(last)),
-                    below(last.explored.interval, first.explored.interval),
-                ))
-            });
-            let terminates = both.into_iter().filter_map(|bricks| {
-                let Line { side, termination, .. } = *of(bricks).next()?;
-                let done = termination.map_or(0, |duration| duration.seconds.count);
-                Some(Judgement::new(
-                    "“In relatively small areas, agents running Brick&Mortar manage to terminate before all of them \
-                     are blocked”",
-                    bricks.name(),
-                    format!("all agents are done in {done} of {} runs of {side}x{side} cells", merged.layouts),
-                    always(Estimate::share(done, merged.layouts)),
-                ))
-            });
-            terminates.chain(judged).collect()
-        }
-        Figure::Ideal => {
-            let rivals = both.into_iter().flat_map(|bricks| [(bricks, ants), (bricks, ants_published)]);
-            let judged = rivals.flat_map(|(bricks, ants)| {
-                of(bricks).zip(of(ants)).map(move |(one, other)| {
-                    let others_moves = moves_of_all(merged, other);
-                    Judgement::new(
-                        "“in idealized conditions, Brick&Mortar significantly outperforms Ants in terms of \
-                         exploration time”",
-                        format!(
-                            "{}, {} against {}",
-                            counted(one.agents, "agent"),
-                            bricks.name(),
-                            ants.name()
-                        ),
-                        format!(
-                            "{} against {}",
-                            moves_or_runs(merged, one),
-                            Estimate::text_or_dash(others_moves, 0)
-                        ),
-                        is_sooner(merged, one, others_moves),
-                    )
-                })
-            });
-            judged.collect()
-        }
-    }
+    let below_all = BOTH.map(|bricks| {
+        let reaches = lines_of(merged, bricks).map(always_whole).fold(Verdict::Fails, Verdict::or);
+        let never = lines_of(merged, bricks).all(|line| whole(line) < merged.layouts);
+        let explored = lines_of(merged, bricks).map(|line| line.explored);
+        let most = explored.max_by(|one, other| one.mean.total_cmp(&other.mean));
+        Judgement::new(
+            "“adding more agents … without however reaching the 100% mark”",
+            bricks.name(),
+            format!("at most {} %", Estimate::text_or_dash(most, 1)),
+            Verdict::decided(never, reaches == Verdict::Holds),
+        )
+    });
+    let ants = [ants, ants_published, beside, in_count].map(|team| {
+        let verdict = lines_of(merged, team).map(always_whole).fold(Verdict::Holds, Verdict::and);
+        let sentence = "“Ants always manage to explore 100% of the area's cells”";
+        Judgement::new(sentence, team.name(), fewest(team), verdict)
+    });
+    let better = BOTH.into_iter().filter_map(|bricks| {
+        let (one, most) = (lines_of(merged, bricks).next()?, lines_of(merged, bricks).next_back()?);
+        Some(Judgement::new(
+            "“Adding more agents allows us to achieve better results”",
+            bricks.name(),
+            format!("{} % by one, {} % by {}", one.explored.text(1), most.explored.text(1), most.agents),
+            below(one.explored.interval, most.explored.interval),
+        ))
+    });
+    let papers = [ants_published, beside, in_count];
+    let affected = papers.iter().filter_map(|&team| share(merged, team));
+    let late = papers.iter().filter_map(|&team| time(merged, team));
+    let compromised = BOTH.into_iter().flat_map(|bricks| compromised(merged, bricks));
+    let rivals = pairs(papers, BOTH).filter_map(|(ants, bricks)| more_robust(merged, ants, bricks));
+    better.chain(below_all).chain(ants).chain(affected).chain(late).chain(compromised).chain(rivals).collect()
+}
+
+/// The sentences about Fig. 12.
+fn by_area(merged: &Summary) -> Vec<Judgement> {
+    let explored = |line: &Line| format!("{} % of {}x{1} cells", line.explored.text(1), line.side);
+    let judged = BOTH.into_iter().filter_map(|bricks| {
+        let (first, last) = (lines_of(merged, bricks).next()?, lines_of(merged, bricks).next_back()?);
+        Some(Judgement::new(
+            "“as we increase the area size, the agents have more opportunities to be trapped”",
+            bricks.name(),
+            format!("{}, {}", explored(first), explored(last)),
+            below(last.explored.interval, first.explored.interval),
+        ))
+    });
+    let terminates = BOTH.into_iter().filter_map(|bricks| {
+        let Line { side, termination, .. } = *lines_of(merged, bricks).next()?;
+        let done = termination.map_or(0, |duration| duration.seconds.count);
+        Some(Judgement::new(
+            "“In relatively small areas, agents running Brick&Mortar manage to terminate before all of them \
+             are blocked”",
+            bricks.name(),
+            format!("all agents are done in {done} of {} runs of {side}x{side} cells", merged.layouts),
+            always(Estimate::share(done, merged.layouts)),
+        ))
+    });
+    terminates.chain(judged).collect()
+}
+
+/// The sentence about idealized conditions.
+fn ideal(merged: &Summary) -> Vec<Judgement> {
+    let [_, _, ants, ants_published, ..] = TEAMS;
+    let rivals = BOTH.into_iter().flat_map(|bricks| [(bricks, ants), (bricks, ants_published)]);
+    let judged = rivals.flat_map(|(bricks, ants)| {
+        lines_of(merged, bricks).zip(lines_of(merged, ants)).map(move |(one, other)| {
+            let others_moves = moves_of_all(merged, other);
+            Judgement::new(
+                "“in idealized conditions, Brick&Mortar significantly outperforms Ants in terms of \
+                 exploration time”",
+                format!("{}, {} against {}", counted(one.agents, "agent"), bricks.name(), ants.name()),
+                format!("{} against {}", moves_or_runs(merged, one), Estimate::text_or_dash(others_moves, 0)),
+                is_sooner(merged, one, others_moves),
+            )
+        })
+    });
+    judged.collect()
 }
 
 /// The runs that explored every cell.
@@ -168,8 +166,7 @@ const fn unmissed_ants() -> Team {
 
 /// The lines of a team that misses sensors, each beside that of `unmissed`, which misses none.
 fn beside_unmissed(merged: &Summary, team: Team, unmissed: Team) -> impl Iterator<Item = (&Line, &Line)> {
-    let lines = merged.lines.iter().filter(move |line| line.team == team);
-    lines.zip(merged.unmissed.iter().filter(move |line| line.team == unmissed))
+    lines_of(merged, team).zip(merged.unmissed.iter().filter(move |line| line.team == unmissed))
 }
 
 /// Whether missed sensors hardly affect the share of the cells that ants explore, at every number of agents.
@@ -223,8 +220,7 @@ fn compromised(merged: &Summary, team: Team) -> [Judgement; 2] {
 
 /// Whether ants that miss sensors explore more than Brick&Mortar that misses them, at every number of agents.
 fn more_robust(merged: &Summary, ants: Team, bricks: Team) -> Option<Judgement> {
-    let of = |team| merged.lines.iter().filter(move |line| line.team == team);
-    let all = || of(ants).zip(of(bricks));
+    let all = || lines_of(merged, ants).zip(lines_of(merged, bricks));
     let lead = |(ants, bricks): &(&Line, &Line)| ants.explored.mean - bricks.explored.mean;
     let (worst, rival) = all().min_by(|one, other| lead(one).total_cmp(&lead(other)))?;
     Some(Judgement::new(

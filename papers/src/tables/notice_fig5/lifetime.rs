@@ -28,7 +28,7 @@ pub enum Receiving {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Source {
-    /// The same each time.
+    /// One source, each time.
     Fixed,
     /// Any, drawn each time.
     Drawn,
@@ -45,7 +45,7 @@ const READINGS: [(&str, Receiving, Source); 4] = [
 /// The lifetime by k-FNF under one reading.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Lifetime {
-    /// What receiving costs.
+    /// The cost of receiving.
     pub receiving: Receiving,
     /// Where broadcasts come from.
     pub source: Source,

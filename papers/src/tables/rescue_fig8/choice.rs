@@ -5,8 +5,8 @@ use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Rule, Scheme, Stage};
 use tautline_proofs::engine::Tape;
 
+use super::super::notice_fig5::RANGE_M;
 use super::super::prelude::*;
-use super::Settings;
 use tautline_field::radio::{
     Channel, Faults, LONGEST_WAIT_NS, Model, Network, Point, Problem, Radio, broadcast,
 };
@@ -42,13 +42,13 @@ fn hops_at(report: &Report, hops: &[Option<u16>], range_m: f64, at: Point) -> Op
 
 impl Choices {
     /// Of a rescue without faults, in which every call spreads as the first one.
-    pub(super) fn of(settings: &Settings, report: &Report) -> Result<Self, Problem> {
-        let radio = Radio::new(super::RANGE_M, Model::Disc)?;
+    pub(super) fn of(scheme: Scheme, report: &Report) -> Result<Self, Problem> {
+        let wfrs = report.fates.len();
+        let radio = Radio::new(RANGE_M, Model::Disc)?;
         // A disc and k-FNF over the ideal channel leave nothing to chance.
         let network = Network::new(&report.field, radio, &mut Tape(&[]))?;
-        let scheme = Scheme::Farthest { k: Some(settings.k.0) };
         let rule = Rule::new(scheme, radio.range_um(), LONGEST_WAIT_NS);
-        let (mut tree, mut fewest) = (vec![Vec::new(); settings.wfrs], vec![Vec::new(); settings.wfrs]);
+        let (mut tree, mut fewest) = (vec![Vec::new(); wfrs], vec![Vec::new(); wfrs]);
         for logged in &report.log {
             if let Event::Calls { wfr, node, .. } = logged.event
                 && tree[wfr.0].is_empty()
@@ -62,14 +62,12 @@ impl Choices {
                 fewest[wfr.0] = hops(&network, source, |_| true);
             }
         }
-        let distance =
-            |hops: &[Vec<Option<u16>>], wfr: usize, at| hops_at(report, &hops[wfr], super::RANGE_M, at);
+        let distance = |hops: &[Vec<Option<u16>>], wfr: usize, at| hops_at(report, &hops[wfr], RANGE_M, at);
         let starts: Vec<Point> = report.paths.iter().filter_map(|path| Some(path.first()?.at)).collect();
         let mut choices = Self::default();
-        let mut crowds = vec![0; settings.wfrs];
+        let mut crowds = vec![0; wfrs];
         for &start in &starts {
-            let nearest =
-                (0..settings.wfrs).filter_map(|wfr| Some((distance(&fewest, wfr, start)?, wfr))).min();
+            let nearest = (0..wfrs).filter_map(|wfr| Some((distance(&fewest, wfr, start)?, wfr))).min();
             if let Some((_, wfr)) = nearest {
                 crowds[wfr] += 1;
             }
@@ -78,7 +76,7 @@ impl Choices {
         choices.crowd = crowds.into_iter().max().unwrap_or(0);
         // The WFR to which each robot is on its way; of each WFR and robot, whether it was nearest when chosen last.
         let mut ways: Vec<Option<usize>> = vec![None; starts.len()];
-        let mut was_nearest = vec![vec![false; starts.len()]; settings.wfrs];
+        let mut was_nearest = vec![vec![false; starts.len()]; wfrs];
         for logged in &report.log {
             match logged.event {
                 Event::Chooses { wfr, robot, .. } => {
@@ -95,7 +93,7 @@ impl Choices {
                 Event::SetsOut { robot, wfr, .. } => {
                     ways[robot.0] = Some(wfr.0);
                     let has_one = |wfr: usize| ways.contains(&Some(wfr));
-                    choices.at_once = choices.at_once.max(count(0..settings.wfrs, has_one));
+                    choices.at_once = choices.at_once.max(count(0..wfrs, has_one));
                 }
                 Event::Arrives { robot, .. } | Event::LetsGo { robot, .. } => ways[robot.0] = None,
                 Event::Recurs { .. }

@@ -318,8 +318,10 @@ fn pronounced(open: &[Line], pool: u32) -> impl Iterator<Item = Judgement> {
         let (chain, rival) = (chain?, open.iter().find(|line| line.who == who)?);
         let times = [Milestone::Half, Milestone::ThreeQuarters, Milestone::Whole].map(|milestone| {
             let (chain, rival) = (chain.milestones[milestone as usize], rival.milestones[milestone as usize]);
-            // Where fewer than half of the runs get there, the median run never does.
-            let never = (2 * rival.reached < rival.runs).then_some(f64::INFINITY);
+            // Where fewer than half of the runs get there, by the whole interval, the median run never does.
+            let is_rare = |share: Estimate| below(share.interval, Some([0.5; 2])) == Verdict::Holds;
+            let never =
+                Estimate::share(rival.reached, rival.runs).is_some_and(is_rare).then_some(f64::INFINITY);
             let ends = rival.ends().or(never.map(|never| [never; 2]));
             let (times, chain) = (rival.middle().or(never)?, chain.middle()?);
             Some((times / chain, ends.map(|ends| ends.map(|end| end / chain))))
