@@ -27,7 +27,7 @@ impl Drawn {
     /// The step with these answers, and who acts in it.
     fn to(&self, state: u32, answers: [u32; 2]) -> (u32, Option<u16>) {
         let place = u64::from(2 * answers[0] + answers[1]);
-        let far = !self.owes || self.number(state, place) % 4 == 0;
+        let far = !self.owes || self.number(state, place).is_multiple_of(4);
         let way = self.number(state, 16 + place) % if far { u64::from(self.states) } else { 3 };
         let acting = self.number(state, 32 + place) % 9;
         ((state + way as u32) % self.states, (acting < 8).then_some(acting as u16))
@@ -45,9 +45,11 @@ impl Drawn {
     }
 }
 
+/// The place of a part, and its value by the number of the state.
+type Part = (usize, fn(u32) -> u32);
+
 /// Parts by which a state is told, of which some come behind the 64th.
-const PARTS: [(usize, fn(u32) -> u32); 3] =
-    [(0, |state| state % 4), (3, |state| state / 4), (66, |state| state % 3)];
+const PARTS: [Part; 3] = [(0, |state| state % 4), (3, |state| state / 4), (66, |state| state % 3)];
 
 impl Model for Drawn {
     type State = u32;
@@ -74,8 +76,9 @@ impl Model for Drawn {
     }
 
     fn owed(&self, &state: &u32) -> u16 {
-        let owed =
-            OWED.map(|bit| u16::from(self.owes && self.number(state, 65 + u64::from(bit)) % 4 > 0) << bit);
+        let owed = OWED.map(|bit| {
+            u16::from(self.owes && !self.number(state, 65 + u64::from(bit)).is_multiple_of(4)) << bit
+        });
         owed[0] | owed[1]
     }
 
@@ -88,8 +91,7 @@ impl Model for Drawn {
     }
 
     fn differing(&self, one: &u32, other: &u32) -> u64 {
-        let differs =
-            |&&(place, value): &&(usize, fn(u32) -> u32)| place < 64 && value(*one) != value(*other);
+        let differs = |&&(place, value): &&Part| place < 64 && value(*one) != value(*other);
         PARTS.iter().filter(differs).map(|(place, _)| 1 << place).sum()
     }
 
