@@ -20,7 +20,7 @@ use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 
 pub use self::drive::{EXPLORED, Outcome};
-use self::drive::{driven, is_any, silent};
+use self::drive::{Finds, driven, is_any};
 use self::figure::Figure;
 pub use self::figure::{Contest, Line, Race, Settings, Summary, TEAMS, Team, TeamRule};
 use self::lattice::FAMILIES;
@@ -33,8 +33,9 @@ use tautline_sim::kit::{self, Pace};
 /// compares them, and two repaired robots against two by each reading.
 const RACES: [[usize; 2]; 5] = [[0, 1], [2, 3], [4, 5], [1, 5], [3, 5]];
 
-/// Places in [`TEAMS`] of two robots as published, by each reading; their runs without a word follow the teams' own.
-const TALKING: [usize; 2] = [1, 3];
+/// Places in [`TEAMS`] of one robot and of two as published, by each reading. The runs of two that never talk follow
+/// those of the teams: each is the run of the one robot, and another one of it.
+const TALKING: [[usize; 2]; 2] = [[0, 1], [2, 3]];
 
 /// The seed of the second of two robots that do not talk is so far from that of the first.
 const OTHER_SEED: u64 = 1 << 63;
@@ -104,13 +105,13 @@ impl Table for Kit {
         let seed = run.seed(settings.seed);
         let (layout, start) = family.layout(seed)?;
         let pace = Pace { speed: settings.speed, spread: settings.spread };
-        Ok(std::array::from_fn(|place| {
-            if let Some(&team) = TEAMS.get(place) {
-                return follow(team, &layout, start, pace, seed);
-            }
-            let rule = TEAMS[TALKING[place - TEAMS.len()]].rule.of_kit();
-            silent(rule, &layout, start, pace, [seed, seed.wrapping_add(OTHER_SEED)])
-        }))
+        let mut teams = TEAMS.map(|team| follow(team, &layout, start, pace, seed));
+        let silent = TALKING.map(|[one, _]| {
+            let (_, others) = follow(TEAMS[one], &layout, start, pace, seed.wrapping_add(OTHER_SEED));
+            std::mem::take(&mut teams[one].1).with(others).outcome()
+        });
+        let mut outcomes = teams.into_iter().map(|(outcome, _)| outcome).chain(silent);
+        Ok(std::array::from_fn(|_| outcomes.next().unwrap_or_default()))
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
@@ -119,9 +120,9 @@ impl Table for Kit {
             let teams = of_teams(&results, place);
             lines.extend(TEAMS.into_iter().zip(&teams).map(|(team, all)| Line::of(family, team, all)));
             races.extend(RACES.map(|places| Race::of(family, places, places.map(|place| &teams[place][..]))));
-            silence.extend(TALKING.into_iter().enumerate().map(|(number, place)| {
-                let teams = [TEAMS.len() + number, place].map(|place| &teams[place][..]);
-                Contest::of(self.figure, family, TEAMS[place].rule, teams)
+            silence.extend(TALKING.into_iter().enumerate().map(|(number, [_, two])| {
+                let teams = [TEAMS.len() + number, two].map(|place| &teams[place][..]);
+                Contest::of(self.figure, family, TEAMS[two].rule, teams)
             }));
         }
         let paper = text::of(self.figure, &lines, &races);
@@ -154,12 +155,12 @@ impl Table for Kit {
     }
 }
 
-fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> Outcome {
+fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> (Outcome, Finds) {
     let starts = match team.rule {
         TeamRule::Published | TeamRule::Ahead => vec![start; team.robots],
         TeamRule::Repaired => kit::starts(layout, start, team.robots),
     };
-    driven(team.rule.of_kit(), layout, starts, pace, seed)
+    driven(team.rule.of_kit(), layout, &starts, pace, seed)
 }
 
 impl TeamRule {

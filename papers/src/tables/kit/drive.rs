@@ -16,7 +16,7 @@ pub const EXPLORED: usize = 23;
 const PATIENCE: usize = 1000 * PATHS;
 
 /// The outcome of one run.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     /// Milliseconds until each path is driven, in the order in which they are; as many as are.
     pub(super) paths: Vec<u64>,
@@ -28,65 +28,67 @@ pub struct Outcome {
     pub(super) is_cut: bool,
 }
 
+/// The finds of a run: when each path was driven first, and each node reached.
+#[derive(Default)]
+pub(super) struct Finds {
+    paths: BTreeMap<[Cell; 2], u64>,
+    nodes: BTreeMap<Cell, u64>,
+}
+
 /// The run of robots from `starts` until all paths are driven, or no new one has been for long.
-pub(super) fn driven(rule: Rule, layout: &Layout, starts: Vec<Cell>, pace: Pace, seed: u64) -> Outcome {
-    let mut outcome = Outcome { paths: Vec::new(), overlaps: Vec::new(), nodes: vec![0], is_cut: false };
-    let Ok(mut course) = kit::course(rule, layout, &starts, pace, seed) else { return outcome };
-    let mut found = starts;
-    found.sort_unstable();
-    found.dedup();
-    outcome.nodes = vec![0; found.len()];
-    let mut idle = 0;
-    while outcome.paths.len() < PATHS
+pub(super) fn driven(
+    rule: Rule,
+    layout: &Layout,
+    starts: &[Cell],
+    pace: Pace,
+    seed: u64,
+) -> (Outcome, Finds) {
+    let mut finds = Finds::default();
+    let Ok(mut course) = kit::course(rule, layout, starts, pace, seed) else {
+        return (Outcome { nodes: vec![0], ..Outcome::default() }, finds);
+    };
+    finds.nodes.extend(starts.iter().map(|&start| (start, 0)));
+    let (mut overlaps, mut idle) = (Vec::new(), 0);
+    while finds.paths.len() < PATHS
         && idle < PATIENCE
         && let Some(drive) = course.drive()
     {
         idle = if drive.is_new { 0 } else { idle + 1 };
         let [_, end] = drive.time;
         if drive.is_new {
-            outcome.paths.push(end);
+            finds.paths.insert([drive.from.min(drive.to), drive.from.max(drive.to)], end);
             let shared = course.driven().values().filter(|robots| robots.count_ones() > 1).count();
-            outcome.overlaps.push(shared as u16);
+            overlaps.push(shared as u16);
         }
-        if !found.contains(&drive.to) {
-            found.push(drive.to);
-            outcome.nodes.push(end);
-        }
+        finds.nodes.entry(drive.to).or_insert(end);
     }
-    outcome.paths.sort_unstable();
-    outcome.nodes.sort_unstable();
-    outcome.is_cut = course.apart() > kit::reach_millimetres(rule.reach).pow(2);
-    outcome
+    let is_cut = course.apart() > kit::reach_millimetres(rule.reach).pow(2);
+    (Outcome { overlaps, is_cut, ..finds.outcome() }, finds)
 }
 
-/// The runs of two robots that start at one node, as [`driven`], and never talk: what one has found, both have.
-pub(super) fn silent(rule: Rule, layout: &Layout, start: Cell, pace: Pace, seeds: [u64; 2]) -> Outcome {
-    let (mut paths, mut nodes) = (BTreeMap::new(), BTreeMap::from([(start, 0)]));
-    for seed in seeds {
-        let Ok(mut course) = kit::course(rule, layout, &[start], pace, seed) else { continue };
-        let (mut driven, mut idle) = (0, 0);
-        while driven < PATHS
-            && idle < PATIENCE
-            && let Some(drive) = course.drive()
-        {
-            // No node is found on a path that was driven before.
-            if !drive.is_new {
-                idle += 1;
-                continue;
-            }
-            (driven, idle) = (driven + 1, 0);
-            let [_, end] = drive.time;
-            let path = [drive.from.min(drive.to), drive.from.max(drive.to)];
-            paths.entry(path).and_modify(|first: &mut u64| *first = end.min(*first)).or_insert(end);
-            nodes.entry(drive.to).and_modify(|first: &mut u64| *first = end.min(*first)).or_insert(end);
+impl Finds {
+    /// These and those of another robot, which it does not hear of.
+    pub(super) fn with(mut self, other: Self) -> Self {
+        for (path, end) in other.paths {
+            self.paths.entry(path).and_modify(|first| *first = end.min(*first)).or_insert(end);
         }
+        for (node, end) in other.nodes {
+            self.nodes.entry(node).and_modify(|first| *first = end.min(*first)).or_insert(end);
+        }
+        self
     }
-    let sorted = |mut times: Vec<u64>| {
-        times.sort_unstable();
-        times
-    };
-    let (paths, nodes) = (sorted(paths.into_values().collect()), sorted(nodes.into_values().collect()));
-    Outcome { paths, overlaps: Vec::new(), nodes, is_cut: false }
+
+    /// The outcome of a run in which nothing else counts.
+    pub(super) fn outcome(&self) -> Outcome {
+        let sorted = |times: &mut dyn Iterator<Item = u64>| {
+            let mut times: Vec<u64> = times.collect();
+            times.sort_unstable();
+            times
+        };
+        let (paths, nodes) =
+            (sorted(&mut self.paths.values().copied()), sorted(&mut self.nodes.values().copied()));
+        Outcome { paths, nodes, ..Outcome::default() }
+    }
 }
 
 impl Outcome {

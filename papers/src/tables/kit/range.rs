@@ -89,7 +89,7 @@ impl Table for KitRange {
         let pace = Pace { speed: settings.speed, spread: settings.spread };
         let drive = |(robots, paths): Team| {
             let reach = paths.and_then(Reach::of_paths).unwrap_or(Reach::PAPER);
-            driven(Rule { reach, ..Rule::REPAIRED }, &layout, starts(&layout, start, robots), pace, seed)
+            driven(Rule { reach, ..Rule::REPAIRED }, &layout, &starts(&layout, start, robots), pace, seed).0
         };
         Ok(teams().map(drive).collect())
     }
