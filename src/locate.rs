@@ -13,7 +13,7 @@ use tautline_field::position::{
 use tautline_io::diagnostic::{Diagnostic, Halt, one_line};
 use tautline_io::named_values::NamedValues;
 use tautline_io::number::Number;
-use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::text_table::{Align, TextTable};
 use tautline_io::value_parser::{Metres, metres_within, number, within};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
@@ -268,8 +268,7 @@ fn text(setting: &Setting, report: &Report) -> String {
         || format!("a robot anywhere in {width_m}×{height_m} m"),
         |[x_m, y_m]| format!("a robot at {},{}", Number(x_m), Number(y_m)),
     );
-    let mut columns =
-        TextTable::new([Column::left(Width::Fit)].into_iter().chain([Column::left(Width::Fit); 3]));
+    let mut columns = TextTable::new([Align::Left; 4]);
     columns.row(["metres", "median", "95th percentile", "root mean square"]);
     let row = |name: &str, errors: &Errors| {
         let Errors { of, interval } = errors;
@@ -325,12 +324,7 @@ fn advice(advice: &Advice) -> String {
 }
 
 fn positions(found: &[FixReport]) -> String {
-    let mut columns = TextTable::new(
-        [Column::left(Width::Fit)]
-            .into_iter()
-            .chain([Column::right(Width::Fit); 5])
-            .chain([Column::left(Width::Fit)]),
-    );
+    let mut columns = TextTable::new([Align::Left].into_iter().chain([Align::Right; 5]).chain([Align::Left]));
     columns.row(["fix", "x, m", "y, m", "± rms, m", "dilution", "residual", ""]);
     let told = |number: Option<f64>| {
         number.map_or_else(|| "-".to_owned(), |number| format!("{number:.3}").replace("-0.000", "0.000"))

@@ -13,7 +13,7 @@ use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
 use tautline_io::named_values::NamedValues;
 use tautline_io::number::Number;
-use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::text_table::{Align, TextTable};
 use tautline_io::value_parser::{Metres, real, whole};
 use tautline_proofs::mrc::Demand;
 use tautline_proofs::plural::counted;
@@ -449,7 +449,7 @@ fn table(setting: &Setting, summary: &Summary) -> String {
         "seconds from the first call to the robot".to_owned(),
         Estimate::text_or_dash(summary.wait_s, 1),
     ));
-    let mut columns = TextTable::new([Column::left(Width::Fit), Column::left(Width::Fit)]);
+    let mut columns = TextTable::new([Align::Left; 2]);
     for (name, value) in rows {
         columns.row([name, value]);
     }

@@ -2,62 +2,22 @@
 
 use std::fmt::Write;
 
-/// How one column is set.
+/// The side on which a cell stands that is narrower than its column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Column {
-    side: Side,
-    width: Width,
-    gap: usize,
-}
-
-/// Where a cell stands that is narrower than its column.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Side {
+pub enum Align {
+    /// Text.
     Left,
+    /// Numbers.
     Right,
 }
 
-/// How wide a column is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Width {
-    /// As wide as its widest cell.
-    Fit,
-    /// As wide as the widest cell of all such columns.
-    Alike,
-    /// So many characters; a wider cell pushes on what follows it.
-    Of(usize),
-}
+/// The characters between two columns.
+const GAP: usize = 2;
 
-impl From<usize> for Width {
-    fn from(characters: usize) -> Self {
-        Self::Of(characters)
-    }
-}
-
-impl Column {
-    /// The characters between two columns.
-    const GAP: usize = 2;
-
-    /// A column of text.
-    pub const fn left(width: Width) -> Self {
-        Self { side: Side::Left, width, gap: Self::GAP }
-    }
-
-    /// A column of numbers.
-    pub const fn right(width: Width) -> Self {
-        Self { side: Side::Right, width, gap: Self::GAP }
-    }
-
-    /// This column, with so many characters between the column before and it.
-    pub const fn after(self, gap: usize) -> Self {
-        Self { gap, ..self }
-    }
-}
-
-/// Rows of cells.
+/// Rows of cells. A column is as wide as its widest cell.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct TextTable {
-    columns: Vec<Column>,
+    columns: Vec<Align>,
     lines: Vec<Line>,
 }
 
@@ -68,8 +28,8 @@ enum Line {
 }
 
 impl TextTable {
-    /// No row yet.
-    pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
+    /// No row yet, of columns that are set so.
+    pub fn new(columns: impl IntoIterator<Item = Align>) -> Self {
         Self { columns: columns.into_iter().collect(), lines: Vec::new() }
     }
 
@@ -85,23 +45,21 @@ impl TextTable {
 
     /// All lines, each with its end.
     pub fn text(&self) -> String {
-        let widths = self.widths();
+        let widths: Vec<usize> = (0..self.columns.len()).map(|place| self.width(place)).collect();
         let mut text = String::new();
-        // Writing to a string cannot fail.
         for line in &self.lines {
             match line {
-                Line::Title(words) => {
-                    let _ = write!(text, "\n{words}");
-                }
+                Line::Title(words) => text.extend(["\n", words]),
                 Line::Row(cells) => {
-                    for (place, ((cell, column), width)) in
+                    for (place, ((cell, align), &width)) in
                         cells.iter().zip(&self.columns).zip(&widths).enumerate()
                     {
-                        let gap = if place == 0 { 0 } else { column.gap };
-                        let _ = match column.side {
-                            Side::Right => write!(text, "{:gap$}{cell:>width$}", ""),
-                            Side::Left if place + 1 == cells.len() => write!(text, "{:gap$}{cell}", ""),
-                            Side::Left => write!(text, "{:gap$}{cell:<width$}", ""),
+                        let gap = if place == 0 { 0 } else { GAP };
+                        // Writing to a string cannot fail.
+                        let _ = match align {
+                            Align::Right => write!(text, "{:gap$}{cell:>width$}", ""),
+                            Align::Left if place + 1 == cells.len() => write!(text, "{:gap$}{cell}", ""),
+                            Align::Left => write!(text, "{:gap$}{cell:<width$}", ""),
                         };
                     }
                 }
@@ -111,22 +69,12 @@ impl TextTable {
         text
     }
 
-    fn widths(&self) -> Vec<usize> {
-        let widest = |place: usize| {
-            let cells = self.lines.iter().filter_map(|line| match line {
-                Line::Title(_) => None,
-                Line::Row(cells) => cells.get(place),
-            });
-            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-        };
-        let alike = (0..self.columns.len()).filter(|&place| self.columns[place].width == Width::Alike);
-        let alike = alike.map(widest).max().unwrap_or(0);
-        let width = |(place, column): (usize, &Column)| match column.width {
-            Width::Fit => widest(place),
-            Width::Alike => alike,
-            Width::Of(width) => width,
-        };
-        self.columns.iter().enumerate().map(width).collect()
+    fn width(&self, column: usize) -> usize {
+        let cells = self.lines.iter().filter_map(|line| match line {
+            Line::Title(_) => None,
+            Line::Row(cells) => cells.get(column),
+        });
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
     }
 }
 
@@ -141,8 +89,7 @@ pub struct Figures<'a, T> {
 impl<'a, T> Figures<'a, T> {
     /// No figure yet, under a line that says what was measured.
     pub fn new(heading: String, measured: &'a [T]) -> Self {
-        let of_figures = measured.iter().map(|_| Column::right(Width::Alike));
-        let columns = TextTable::new([Column::left(Width::Fit)].into_iter().chain(of_figures));
+        let columns = TextTable::new([Align::Left].into_iter().chain(measured.iter().map(|_| Align::Right)));
         Self { heading, measured, columns }
     }
 
@@ -167,19 +114,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_as_wide_as_they_say() {
-        let mut columns = TextTable::new([
-            Column::left(Width::Fit),
-            Column::right(Width::Alike),
-            Column::right(Width::Alike).after(1),
-            Column::right(Width::Of(3)),
-            Column::left(Width::Fit),
-        ]);
-        columns.row(["name", "1", "22222", "1234", "a"]);
+    fn columns_are_as_wide_as_their_widest_cells() {
+        let mut columns = TextTable::new([Align::Left, Align::Right, Align::Left]);
+        columns.row(["name", "1", "a"]);
         columns.title("more");
-        columns.row(["é", "1", "2", "3", "last"]);
-        let text = columns.text();
-        assert_eq!(text, "name      1 22222  1234  a\n\nmore\né         1     2    3  last\n");
+        columns.row(["é", "22222", "last"]);
+        assert_eq!(columns.text(), "name      1  a\n\nmore\né     22222  last\n");
     }
 
     #[test]
@@ -189,6 +129,6 @@ mod tests {
         figures.title("Squares");
         figures.row("square", |number| (number * number).to_string());
         let text = figures.with_notes("both prime");
-        assert_eq!(text, "Two numbers\n\nplain     7   11\n\nSquares\nsquare   49  121\n\nboth prime\n");
+        assert_eq!(text, "Two numbers\n\nplain    7   11\n\nSquares\nsquare  49  121\n\nboth prime\n");
     }
 }

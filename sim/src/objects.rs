@@ -7,7 +7,7 @@ use std::str::FromStr;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_io::number::Number;
-use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::text_table::{Align, TextTable};
 use tautline_io::value_parser::{real, whole};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::midpoint;
@@ -164,7 +164,7 @@ pub fn table(objects: &[ObjectReport]) -> String {
     if let (Some(median), Some(most)) = (share(50), share(95)) {
         text.extend([format!("; off by {median:.3} of a cell's side in the median, {most:.3} at 95 %")]);
     }
-    let mut table = TextTable::new([Column::left(Width::Fit); 4]);
+    let mut table = TextTable::new([Align::Left; 4]);
     table.row(["  object", "taken to be", "off by", "standard deviations"]);
     for ObjectReport { at: [x, y], found } in objects {
         let object = format!("  {x}:{y}");

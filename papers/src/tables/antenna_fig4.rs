@@ -207,13 +207,13 @@ impl Table for AntennaFig4 {
             None => "nothing".to_owned(),
         };
         let pattern = Columns::of(merged.pattern.iter().filter(|angle| angle.degrees >= 0))
-            .right("", 5, |angle| format!("{}°", angle.degrees))
-            .right("", 8, level);
+            .right("", |angle| format!("{}°", angle.degrees))
+            .right("", level);
         let noises = Columns::of(&merged.noises)
-            .right("noise, dB", 9, |noise| Number(noise.noise_db))
-            .percent("right, %", 23, 2, |noise| noise.right)
-            .percent("one beside, %", 23, 2, |noise| noise.beside)
-            .estimate("off, degrees", 14, 2, |noise| noise.degrees_off);
+            .right("noise, dB", |noise| Number(noise.noise_db))
+            .percent("right, %", 2, |noise| noise.right)
+            .percent("one beside, %", 2, |noise| noise.beside)
+            .estimate("off, degrees", 2, |noise| noise.degrees_off);
         Ok(format!(
             "A node {} m off: dB above the weakest signal that is heard all round\n\n{}\n\
              Scans of nodes in random directions, {} for each noise, seed {}\n\n{}\n\

@@ -247,15 +247,15 @@ impl Table for Atlas {
 
     fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let mut columns = Columns::of(&merged.lines)
-            .right("N", Fit, |line| line.robots)
-            .right("walls", Fit, |line| line.max_walls)
-            .right("rule", Fit, |line| line.rule)
-            .right("layouts", Fit, |line| line.layouts)
-            .right("runs", Fit, |line| line.runs)
-            .right("team moves", Fit, |line| line.moves)
-            .right("longest", Fit, |line| line.longest);
+            .right("N", |line| line.robots)
+            .right("walls", |line| line.max_walls)
+            .right("rule", |line| line.rule)
+            .right("layouts", |line| line.layouts)
+            .right("runs", |line| line.runs)
+            .right("team moves", |line| line.moves)
+            .right("longest", |line| line.longest);
         for clause in CLAUSES {
-            columns = columns.right(clause, Fit, |line| line.runs_that_break(clause));
+            columns = columns.right(clause, |line| line.runs_that_break(clause));
         }
         let mut text = format!(
             "All runs in all layouts of (2N−1)² cells, the base in the middle, by \

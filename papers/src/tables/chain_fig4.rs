@@ -174,16 +174,16 @@ impl Table for ChainFig4 {
         );
         let a_move = |run: &Run| tenths(run.milliseconds, 1000 * u64::from(run.team_moves.max(1)));
         text += &Columns::of(&merged.runs)
-            .left("area", Fit, |run| run.place.words())
-            .right("rule", Fit, |run| run.rule)
-            .right("team moves", Fit, |run| run.team_moves)
-            .right("explored", Fit, |run| format!("{}/{}", run.explored, run.cells))
-            .right("minutes", Fit, |run| tenths(run.milliseconds, 60_000))
-            .right("s a move", Fit, a_move)
-            .right("longest way m", Fit, |run| tenths(run.longest_way_mm, 1000))
-            .right("error m", Fit, |run| tenths(run.drift_mm, 1000))
-            .right("walls", Fit, |run| run.walls)
-            .right("robots passed", Fit, |run| run.passed)
+            .left("area", |run| run.place.words())
+            .right("rule", |run| run.rule)
+            .right("team moves", |run| run.team_moves)
+            .right("explored", |run| format!("{}/{}", run.explored, run.cells))
+            .right("minutes", |run| tenths(run.milliseconds, 60_000))
+            .right("s a move", a_move)
+            .right("longest way m", |run| tenths(run.longest_way_mm, 1000))
+            .right("error m", |run| tenths(run.drift_mm, 1000))
+            .right("walls", |run| run.walls)
+            .right("robots passed", |run| run.passed)
             .text();
         Ok(text)
     }

@@ -154,16 +154,16 @@ impl Table for ChainRadio {
             counted(settings.runs, "run")
         );
         text += &Columns::of(&merged.lines)
-            .right("robots", Fit, |line| line.robots)
-            .right("moves", Fit, |line| line.team_moves)
-            .right("bytes", Fit, |line| line.bytes)
-            .right("moves cut", Fit, |line| line.cut)
-            .number("driving min", Fit, 1, |line| line.driving_minutes)
-            .number("dual s a move", Fit, 2, |line| line.dual_s)
-            .number("min", Fit, 2, |line| line.dual_minutes)
-            .estimate("bridges s a move", Fit, 1, |line| line.bridges_s)
-            .estimate("min", Fit, 1, |line| line.bridges_minutes)
-            .estimate("switching %", Fit, 0, |line| line.switching)
+            .right("robots", |line| line.robots)
+            .right("moves", |line| line.team_moves)
+            .right("bytes", |line| line.bytes)
+            .right("moves cut", |line| line.cut)
+            .number("driving min", 1, |line| line.driving_minutes)
+            .number("dual s a move", 2, |line| line.dual_s)
+            .number("min", 2, |line| line.dual_minutes)
+            .estimate("bridges s a move", 1, |line| line.bridges_s)
+            .estimate("min", 1, |line| line.bridges_minutes)
+            .estimate("switching %", 0, |line| line.switching)
             .text();
         text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and \
                  waiting, the share in which a bridge switches\n";

@@ -1,7 +1,7 @@
-//! Tables of text whose columns are data: each has a heading, a width, and what of a line stands in it.
+//! Tables of text whose columns are data: each has a heading, and what of a line stands in it.
 
 use tautline_field::stats::Estimate;
-use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::text_table::{Align, TextTable};
 
 use super::estimates::{percent, plain, text};
 
@@ -9,15 +9,14 @@ use super::estimates::{percent, plain, text};
 pub(super) struct Columns<L> {
     title: Option<String>,
     lines: Vec<L>,
-    gap: usize,
-    /// The heading of each column, its width, and its cells, one for each line.
-    cells: Vec<(String, Column, Vec<String>)>,
+    /// The heading of each column, and its cells, one for each line.
+    cells: Vec<(String, Align, Vec<String>)>,
 }
 
 impl<L: Copy> Columns<L> {
     /// A row for each of `lines`, and no column yet.
     pub(super) fn of(lines: impl IntoIterator<Item = L>) -> Self {
-        Self { title: None, lines: lines.into_iter().collect(), gap: 2, cells: Vec::new() }
+        Self { title: None, lines: lines.into_iter().collect(), cells: Vec::new() }
     }
 
     /// A line above the table, after an empty one.
@@ -25,73 +24,55 @@ impl<L: Copy> Columns<L> {
         Self { title: Some(title.into()), ..self }
     }
 
-    /// So many characters stand before each column that follows.
-    pub(super) fn gap(self, gap: usize) -> Self {
-        Self { gap, ..self }
-    }
-
     /// A column of text.
-    pub(super) fn left<D: ToString>(
-        self,
-        heading: impl Into<String>,
-        width: impl Into<Width>,
-        cell: impl Fn(L) -> D,
-    ) -> Self {
-        self.column(heading.into(), Column::left(width.into()), &|line| cell(line).to_string())
+    pub(super) fn left<D: ToString>(self, heading: impl Into<String>, cell: impl Fn(L) -> D) -> Self {
+        self.column(heading.into(), Align::Left, &|line| cell(line).to_string())
     }
 
     /// A column of numbers.
-    pub(super) fn right<D: ToString>(
-        self,
-        heading: impl Into<String>,
-        width: impl Into<Width>,
-        cell: impl Fn(L) -> D,
-    ) -> Self {
-        self.column(heading.into(), Column::right(width.into()), &|line| cell(line).to_string())
+    pub(super) fn right<D: ToString>(self, heading: impl Into<String>, cell: impl Fn(L) -> D) -> Self {
+        self.column(heading.into(), Align::Right, &|line| cell(line).to_string())
     }
 
     /// A column of numbers with so many decimals.
     pub(super) fn number<N: Into<Option<f64>>>(
         self,
         heading: impl Into<String>,
-        width: impl Into<Width>,
         decimals: usize,
         cell: impl Fn(L) -> N,
     ) -> Self {
-        self.right(heading, width, move |line| plain(cell(line), decimals))
+        self.right(heading, move |line| plain(cell(line), decimals))
     }
 
     /// A column of estimates with so many decimals.
     pub(super) fn estimate<E: Into<Option<Estimate>>>(
         self,
         heading: impl Into<String>,
-        width: impl Into<Width>,
         decimals: usize,
         cell: impl Fn(L) -> E,
     ) -> Self {
-        self.right(heading, width, move |line| text(cell(line), decimals))
+        self.right(heading, move |line| text(cell(line), decimals))
     }
 
     /// A column of shares in percent with so many decimals.
     pub(super) fn percent<E: Into<Option<Estimate>>>(
         self,
         heading: impl Into<String>,
-        width: impl Into<Width>,
         decimals: usize,
         cell: impl Fn(L) -> E,
     ) -> Self {
-        self.right(heading, width, move |line| percent(cell(line), decimals))
+        self.right(heading, move |line| percent(cell(line), decimals))
     }
 
-    fn column(mut self, heading: String, column: Column, cell: &dyn Fn(L) -> String) -> Self {
+    fn column(mut self, heading: String, align: Align, cell: &dyn Fn(L) -> String) -> Self {
         let cells = self.lines.iter().map(|&line| cell(line)).collect();
-        self.cells.push((heading, column.after(self.gap), cells));
+        self.cells.push((heading, align, cells));
         self
     }
 
     /// The whole table. Where no column has a heading, there is no row of them.
     pub(super) fn text(&self) -> String {
-        let mut table = TextTable::new(self.cells.iter().map(|&(_, column, _)| column));
+        let mut table = TextTable::new(self.cells.iter().map(|&(_, align, _)| align));
         if let Some(title) = &self.title {
             table.title(title);
         }

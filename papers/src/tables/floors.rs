@@ -121,14 +121,14 @@ impl Table for Floors {
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { starts, seed, miss, max_steps, .. } = settings;
         let columns = Columns::of(&merged.lines)
-            .left("layout", Fit, |line| file_name(&line.map))
-            .right("cells", Fit, |line| line.cells)
-            .right("agents", Fit, |line| line.agents)
-            .left("team", Fit, |line| line.team.name())
-            .estimate("until explored", Fit, 2, |line| line.explored)
-            .estimate("until known", Fit, 2, |line| line.known)
-            .right("early", Fit, |line| line.early)
-            .right("ended", Fit, |line| line.ended);
+            .left("layout", |line| file_name(&line.map))
+            .right("cells", |line| line.cells)
+            .right("agents", |line| line.agents)
+            .left("team", |line| line.team.name())
+            .estimate("until explored", 2, |line| line.explored)
+            .estimate("until known", 2, |line| line.known)
+            .right("early", |line| line.early)
+            .right("ended", |line| line.ended);
         Ok(format!(
             "Team moves over the lower bound, cells by agents; {starts} starts, seed {seed}, \
              {} % of the sensors missed; means with\n\

@@ -131,13 +131,13 @@ impl Table for FloorsMissed {
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { runs, seed, miss, max_steps, .. } = settings;
         let columns = Columns::of(&merged.lines)
-            .left("layout", Fit, |line| file_name(&line.map))
-            .right("agents", Fit, |line| line.agents)
-            .left("team", Fit, |line| line.team)
-            .estimate("until explored", Fit, 2, |line| line.explored)
-            .estimate("until known", Fit, 2, |line| line.known)
-            .percent("% early", Fit, 1, |line| line.early)
-            .percent("% ended", Fit, 1, |line| line.ended);
+            .left("layout", |line| file_name(&line.map))
+            .right("agents", |line| line.agents)
+            .left("team", |line| line.team)
+            .estimate("until explored", 2, |line| line.explored)
+            .estimate("until known", 2, |line| line.known)
+            .percent("% early", 1, |line| line.early)
+            .percent("% ended", 1, |line| line.ended);
         Ok(format!(
             "Team moves over the lower bound, cells by agents; {runs} runs, seeds from {seed}, \
              {} % of the sensors missed; means with\n\

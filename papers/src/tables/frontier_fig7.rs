@@ -227,9 +227,9 @@ impl Table for FrontierFig7 {
         ];
         let part = |(title, of): Part<'_>| {
             let rules = merged.lines.chunks(sizes.len());
-            let mut columns = Columns::of(rules).title(title).left("rule", 15, |teams| teams[0].rule);
+            let mut columns = Columns::of(rules).title(title).left("rule", |teams| teams[0].rule);
             for (place, robots) in sizes.iter().enumerate() {
-                columns = columns.estimate(counted(*robots, "robot"), 15, 1, move |teams| of(&teams[place]));
+                columns = columns.estimate(counted(*robots, "robot"), 1, move |teams| of(&teams[place]));
             }
             columns.text()
         };

@@ -312,10 +312,10 @@ fn numbers(merged: &Summary) -> Vec<Comparison> {
 fn compared(merged: &Summary) -> String {
     let numbers = numbers(merged);
     Columns::of(&numbers)
-        .left("metres", Fit, |(what, ..)| what)
-        .right("paper", Fit, |(_, paper_m, ..)| format!("< {paper_m}"))
-        .right("ours", Fit, |(_, _, ours_m, _)| format!("{ours_m:.4}"))
-        .right("difference", Fit, |(_, paper_m, ours_m, _)| format!("{:+.4}", ours_m - paper_m))
+        .left("metres", |(what, ..)| what)
+        .right("paper", |(_, paper_m, ..)| format!("< {paper_m}"))
+        .right("ours", |(_, _, ours_m, _)| format!("{ours_m:.4}"))
+        .right("difference", |(_, paper_m, ours_m, _)| format!("{:+.4}", ours_m - paper_m))
         .text()
 }
 
@@ -325,13 +325,13 @@ fn varied(merged: &Summary) -> String {
         .title(
             "20 iterations, also by other numbers; the zone is the rms distance of the particles to their mean",
         )
-        .left("", Fit, |variant| &variant.reading)
-        .right("optimum, mm", Fit, |variant| twenty(variant).optimum_mm())
-        .percent("< 5 cm, %", Fit, 1, |variant| twenty(variant).below_5_cm)
-        .number("zone, m: first", Fit, 2, |variant| twenty(variant).first_zone_m)
-        .number("last", Fit, 2, |variant| twenty(variant).zone_m)
-        .percent("narrower, %", Fit, 1, |variant| twenty(variant).narrower)
-        .percent("each time, %", Fit, 1, |variant| twenty(variant).always_narrower)
+        .left("", |variant| &variant.reading)
+        .right("optimum, mm", |variant| twenty(variant).optimum_mm())
+        .percent("< 5 cm, %", 1, |variant| twenty(variant).below_5_cm)
+        .number("zone, m: first", 2, |variant| twenty(variant).first_zone_m)
+        .number("last", 2, |variant| twenty(variant).zone_m)
+        .percent("narrower, %", 1, |variant| twenty(variant).narrower)
+        .percent("each time, %", 1, |variant| twenty(variant).always_narrower)
         .text()
 }
 

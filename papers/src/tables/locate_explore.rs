@@ -245,7 +245,6 @@ impl Table for LocateExplore {
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         type Part = (&'static str, fn(&Figure) -> String);
-        const WIDTH: usize = 22;
         // Of the repaired rule.
         let parts: [Part; 9] = [
             ("team moves", |figure| text(figure.moves, 1)),
@@ -268,20 +267,20 @@ impl Table for LocateExplore {
         for lines in merged.lines.chunks(RULES.len()) {
             let Line { size: (width, height), blocked, robots, figures, .. } = &lines[REPAIRED];
             told.extend([format!("\n{width}×{height} cells, {blocked} % blocked, {robots} robots\n")]);
-            let mut clean = Columns::of(lines).left("clean runs, %", 32, |line| line.rule);
-            let mut repaired = Columns::of(&parts).left("repaired", 32, |part| part.0);
+            let mut clean = Columns::of(lines).left("clean runs, %", |line| line.rule);
+            let mut repaired = Columns::of(&parts).left("repaired", |part| part.0);
             for (noise, noise_db) in settings.noise_db.iter().enumerate() {
                 let title = format!("{} dB", Number(*noise_db));
-                clean = clean.right(title.clone(), WIDTH, move |line| percent(line.figures[noise].clean, 1));
-                repaired = repaired.right(title, WIDTH, move |part| part.1(&figures[noise]));
+                clean = clean.right(title.clone(), move |line| percent(line.figures[noise].clean, 1));
+                repaired = repaired.right(title, move |part| part.1(&figures[noise]));
             }
             told += &(clean.text() + &repaired.text());
         }
         told += "\nThe largest square floor, in cells across, by the Cramér–Rao bound of a stop\n";
         let floors = Columns::of(&merged.floors)
-            .right("noise, dB", Fit, |floor| floor.noise_db)
-            .right("one fix is enough", Fit, |floor| floor.without_stops)
-            .right("at most ten more are", Fit, |floor| floor.with_stops);
+            .right("noise, dB", |floor| floor.noise_db)
+            .right("one fix is enough", |floor| floor.without_stops)
+            .right("at most ten more are", |floor| floor.with_stops);
         Ok(told + &floors.text() + "\n±: the 95 % interval\n")
     }
 

@@ -183,16 +183,16 @@ impl Table for Margins {
              that weakens with exponent {exponent}\n\n"
         );
         let body = Columns::of(&merged.lines)
-            .left("rule", 20, |line| line.rule)
-            .left("measured", 8, |line| line.kept.word())
-            .number("at rest, m", Fit, 3, |line| line.rest_m)
-            .number("moving, m", Fit, 3, |line| line.moving_m)
-            .number("left, m", Fit, 3, |line| line.margin_m)
-            .number("each off, m", Fit, 3, |line| line.each_m)
-            .number("weaker, dB", Fit, 3, |line| line.weaker_db)
-            .number("side up to, m", Fit, 3, |line| line.largest_m)
-            .number("left of r_cov, m", Fit, 3, |line| line.of_r_cov_m)
-            .right("late", Fit, |line| if line.is_late_allowed { "any" } else { "none" })
+            .left("rule", |line| line.rule)
+            .left("measured", |line| line.kept.word())
+            .number("at rest, m", 3, |line| line.rest_m)
+            .number("moving, m", 3, |line| line.moving_m)
+            .number("left, m", 3, |line| line.margin_m)
+            .number("each off, m", 3, |line| line.each_m)
+            .number("weaker, dB", 3, |line| line.weaker_db)
+            .number("side up to, m", 3, |line| line.largest_m)
+            .number("left of r_cov, m", 3, |line| line.of_r_cov_m)
+            .right("late", |line| if line.is_late_allowed { "any" } else { "none" })
             .text();
         Ok(head
             + &body

@@ -139,17 +139,17 @@ impl Table for Optimum {
         };
         // The heading of the rules is as wide as the longer of them; the shorter one pulls on what follows it.
         let columns = Columns::of(&merged.lines)
-            .left("robots", 6, |line| line.robots)
-            .left("walls", 5, walls)
-            .left("rule     ", 0, |line| line.rule)
-            .right("layouts", 7, |line| line.layouts)
-            .right("walled in", 9, |line| line.walled_in)
-            .right("missed", 6, |line| line.missed)
-            .right("beyond", 6, |line| line.beyond)
-            .right("below", 5, |line| line.below)
-            .right("optimal", 7, |line| line.optimal)
-            .number("mean", 4, 2, |line| line.mean)
-            .left("worst", Fit, |line| line.worst.as_ref().map_or("-".to_owned(), Worst::ratio));
+            .left("robots", |line| line.robots)
+            .left("walls", walls)
+            .left("rule     ", |line| line.rule)
+            .right("layouts", |line| line.layouts)
+            .right("walled in", |line| line.walled_in)
+            .right("missed", |line| line.missed)
+            .right("beyond", |line| line.beyond)
+            .right("below", |line| line.below)
+            .right("optimal", |line| line.optimal)
+            .number("mean", 2, |line| line.mean)
+            .left("worst", |line| line.worst.as_ref().map_or("-".to_owned(), Worst::ratio));
         let mut text = format!(
             "Team moves until the last chain-reachable cell is explored, by the \
              fewest of a team that knows the walls,\n\

@@ -40,15 +40,11 @@ pub(super) fn judged(printed: &[PrintedFigure]) -> Vec<Judgement> {
 }
 
 /// The figures for people, the paper's with so many decimals.
-pub(super) fn text(
-    printed: &[PrintedFigure],
-    decimals: usize,
-    [what, paper, ours, difference]: [usize; 4],
-) -> String {
+pub(super) fn text(printed: &[PrintedFigure], decimals: usize) -> String {
     Columns::of(printed)
-        .left("", what, |line| &line.what)
-        .right("paper", paper, |line| format!("{:.decimals$}", line.paper))
-        .estimate("ours", ours, 1, |line| line.ours)
-        .right("difference", difference, |line| format!("{:+.1}", line.difference))
+        .left("", |line| &line.what)
+        .right("paper", |line| format!("{:.decimals$}", line.paper))
+        .estimate("ours", 1, |line| line.ours)
+        .right("difference", |line| format!("{:+.1}", line.difference))
         .text()
 }

@@ -19,5 +19,5 @@ pub(super) use tautline_field::stats::{Estimate, decimals, hundredths, rounded};
 pub(super) use tautline_grids::layout::Layout;
 pub(super) use tautline_io::diagnostic::{Diagnostic, Halt};
 pub(super) use tautline_io::number::Number;
-pub(super) use tautline_io::text_table::{Figures, Width::Fit};
+pub(super) use tautline_io::text_table::Figures;
 pub(super) use tautline_io::value_parser::{number, real, whole};

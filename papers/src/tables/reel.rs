@@ -212,15 +212,15 @@ fn moves<'a>(goal: &str, lines: impl Iterator<Item = &'a Line>) -> String {
             "Mean team moves to {goal}; ratios to the repaired rule with their 95 % intervals; layouts in which a rule \
              is slower"
         ))
-        .left("layouts", 17, |line| line.ground)
-        .number("repaired", 9, 1, |line| line.rules[0].mean);
+        .left("layouts", |line| line.ground)
+        .number("repaired", 1, |line| line.rules[0].mean);
     for (place, rule) in RULES.iter().enumerate().skip(1) {
         columns = columns
-            .number(rule.as_str(), 9, 1, move |line| line.rules[place].mean)
-            .right("ratio", 15, move |line| line.rules[place].ratio())
-            .right("slower", 7, move |line| line.rules[place].slower);
+            .number(rule.as_str(), 1, move |line| line.rules[place].mean)
+            .right("ratio", move |line| line.rules[place].ratio())
+            .right("slower", move |line| line.rules[place].slower);
     }
-    columns.right("reached/runs", 27, reached).text()
+    columns.right("reached/runs", reached).text()
 }
 
 /// The cells that runs explore, for people.
@@ -230,14 +230,14 @@ fn cells(cells: &[Cells]) -> String {
             "Mean cells explored; in % of those of the repaired rule with their 95 % intervals; layouts in \
              which a rule explores fewer cells, and more",
         )
-        .left("layouts", 17, |line| line.ground)
-        .number("repaired", 9, 1, |line| line.rules[0].mean);
+        .left("layouts", |line| line.ground)
+        .number("repaired", 1, |line| line.rules[0].mean);
     for (place, rule) in RULES.iter().enumerate().skip(1) {
         columns = columns
-            .number(rule.as_str(), 9, 1, move |line| line.rules[place].mean)
-            .estimate("in %", 16, 2, move |line| line.rules[place].percent)
-            .right("fewer", 7, move |line| line.rules[place].fewer)
-            .right("more", 6, move |line| line.rules[place].more);
+            .number(rule.as_str(), 1, move |line| line.rules[place].mean)
+            .estimate("in %", 2, move |line| line.rules[place].percent)
+            .right("fewer", move |line| line.rules[place].fewer)
+            .right("more", move |line| line.rules[place].more);
     }
     columns.text()
 }

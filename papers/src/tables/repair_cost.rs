@@ -197,13 +197,11 @@ impl Table for RepairCost {
         }
         text.push_str(&compared("Mean team moves of whole runs", lines, |line| &line.moves));
         text.push_str(&compared("Mean cells explored when a run ends", lines, |line| &line.explored));
-        let mut clauses = Columns::of(lines).title("Runs that break a clause, published / repaired").left(
-            "density",
-            8,
-            |line| line.density,
-        );
+        let mut clauses = Columns::of(lines)
+            .title("Runs that break a clause, published / repaired")
+            .left("density", |line| line.density);
         for (place, breach) in Breach::CHAIN.into_iter().enumerate() {
-            clauses = clauses.right(breach.clause(), 12, move |line| {
+            clauses = clauses.right(breach.clause(), move |line| {
                 let runs = line.violations[place];
                 format!("{} / {}", runs.published, runs.repaired)
             });
@@ -220,15 +218,15 @@ impl Table for RepairCost {
 fn compared(title: &str, lines: &[Line], number: impl Fn(&Line) -> &Comparison) -> String {
     Columns::of(lines.iter().map(|line| (line.density, number(line))))
         .title(format!("{title}; the difference with its 95 % interval"))
-        .left("density", 7, |(density, _)| density)
-        .number("published", 9, 2, |(_, both)| both.published)
-        .number("repaired", 9, 2, |(_, both)| both.repaired)
-        .right("difference", 15, |(_, both)| {
+        .left("density", |(density, _)| density)
+        .number("published", 2, |(_, both)| both.published)
+        .number("repaired", 2, |(_, both)| both.repaired)
+        .right("difference", |(_, both)| {
             let margin = both.margin.map_or_else(String::new, |margin| format!(" ± {margin:.2}"));
             both.difference.map_or("-".to_owned(), |difference| format!("{difference:+.2}{margin}"))
         })
-        .right("layouts", 7, |(_, both)| both.pairs)
-        .right("left out", 8, |(_, both)| both.left_out)
+        .right("layouts", |(_, both)| both.pairs)
+        .right("left out", |(_, both)| both.left_out)
         .text()
 }
 

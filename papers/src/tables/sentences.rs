@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_field::stats::Estimate;
-use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::text_table::{Align, TextTable};
 
 /// A sentence of a paper, and what is so.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -138,8 +138,7 @@ pub(super) fn text(judged: &[Judgement], why_none: &str) -> String {
     if judged.is_empty() {
         return format!("\nNo sentence of a paper is compared here: {why_none}.\n");
     }
-    let widths = [Width::Fit, Width::Fit, Width::Fit].map(Column::left);
-    let mut columns = TextTable::new(widths);
+    let mut columns = TextTable::new([Align::Left; 3]);
     let mut last = "";
     for Judgement { sentence, of, measured, verdict } in judged {
         if sentence != last {

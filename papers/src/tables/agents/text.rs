@@ -281,35 +281,31 @@ pub(super) fn text(figure: Figure, merged: &Summary) -> String {
         merged.seed,
         moves(merged, &merged.lines).text(),
         counted(merged.max_steps, "step"),
-        paper::text(&merged.paper, 1, [46, 5, 13, 10])
+        paper::text(&merged.paper, 1)
     )
 }
 
 fn moves<'a>(merged: &Summary, lines: &'a [Line]) -> Columns<&'a Line> {
     let moves = |duration| of_runs(merged, duration, |duration| duration.team_moves.text(0));
     Columns::of(lines)
-        .left("area", 7, |line| format!("{0}x{0}", line.side))
-        .gap(1)
-        .right("agents", 6, |line| line.agents)
-        .gap(2)
-        .left("team", 18, |line| line.team.name())
-        .gap(1)
-        .estimate("% explored", 13, 1, |line| line.explored)
-        .estimate("% visited", 15, 1, |line| line.visited)
-        .right("moves until explored", 26, move |line| moves(line.exploration))
-        .right("moves until done", 26, move |line| moves(line.termination))
-        .right("ended", 5, |line| line.ended)
+        .left("area", |line| format!("{0}x{0}", line.side))
+        .right("agents", |line| line.agents)
+        .left("team", |line| line.team.name())
+        .estimate("% explored", 1, |line| line.explored)
+        .estimate("% visited", 1, |line| line.visited)
+        .right("moves until explored", move |line| moves(line.exploration))
+        .right("moves until done", move |line| moves(line.termination))
+        .right("ended", |line| line.ended)
 }
 
 fn seconds(merged: &Summary) -> String {
     let hours = |duration| of_runs(merged, duration, |duration| duration.seconds.times(1.0 / 3600.0).text(1));
     Columns::of(&merged.lines)
         .title("Hours of the slowest agent")
-        .right("agents", 6, |line| line.agents)
-        .left("team", 18, |line| line.team.name())
-        .gap(1)
-        .right("until explored", 18, move |line| hours(line.exploration))
-        .right("until done", 20, move |line| hours(line.termination))
+        .right("agents", |line| line.agents)
+        .left("team", |line| line.team.name())
+        .right("until explored", move |line| hours(line.exploration))
+        .right("until done", move |line| hours(line.termination))
         .text()
 }
 

@@ -115,13 +115,13 @@ impl Table for KitRange {
         );
         let body = Columns::of(&merged.lines)
             .title(title)
-            .left("family", 11, |line| line.family)
-            .right("robots", 6, |line| line.robots)
-            .right("range m", 7, |line| line.range_m)
-            .estimate(format!("after {first} s"), 12, 1, |line| line.directions.first().copied())
-            .estimate(format!("after {second} s"), 12, 1, |line| line.directions.get(1).copied())
-            .estimate("s to 88 %", 11, 1, |line| line.most)
-            .estimate("s to all", 11, 1, |line| line.all)
+            .left("family", |line| line.family)
+            .right("robots", |line| line.robots)
+            .right("range m", |line| line.range_m)
+            .estimate(format!("after {first} s"), 1, |line| line.directions.first().copied())
+            .estimate(format!("after {second} s"), 1, |line| line.directions.get(1).copied())
+            .estimate("s to 88 %", 1, |line| line.most)
+            .estimate("s to all", 1, |line| line.all)
             .text();
         Ok(super::text::head(settings) + &body)
     }

@@ -123,7 +123,7 @@ pub(super) fn told(figure: Figure, settings: &Settings, merged: &Summary) -> Str
     format!(
         "{head}{body}\npublished: KIT at every node. ahead: as published, KIT only where the way ahead is blocked.\n\
          Runs that go to and fro, or stand still, are ended; a mean of seconds is over those that come so far.\n\n{}",
-        paper::text(&merged.paper, 0, [49, 7, 15, 11])
+        paper::text(&merged.paper, 0)
     )
 }
 
@@ -143,25 +143,25 @@ fn times(merged: &Summary) -> String {
     };
     let nodes = Columns::of(named(merged))
         .title("Seconds until half of the nodes are found, and all; the directions that are explored at nodes by then")
-        .left("family", 11, |(family, _)| family)
-        .left("team", 20, |(_, line)| line.team.name())
-        .estimate("half", 13, 0, move |(_, line)| half(line))
-        .estimate("all", 13, 0, |(_, line)| line.nodes.last().copied())
-        .estimate("directions", 13, 1, |(_, line)| line.directions)
-        .estimate("never all %", 18, 1, |(_, line)| line.lost);
+        .left("family", |(family, _)| family)
+        .left("team", |(_, line)| line.team.name())
+        .estimate("half", 0, move |(_, line)| half(line))
+        .estimate("all", 0, |(_, line)| line.nodes.last().copied())
+        .estimate("directions", 1, |(_, line)| line.directions)
+        .estimate("never all %", 1, |(_, line)| line.lost);
     let races = Columns::of(&merged.races)
         .title(
             "A team against another one: seconds by which it finds all nodes sooner, and how \
              often, where both do; and of all layouts",
         )
-        .left("family", 11, |race| race.family)
-        .left("team", 19, |race| race.team.name())
-        .left("against", 19, |race| race.other.name())
-        .estimate("by s", 13, 0, |race| race.gain)
-        .estimate("sooner %", 18, 1, |race| race.sooner)
-        .estimate("both do %", 18, 1, |race| race.both)
-        .estimate("it first %", 18, 1, |race| race.ahead)
-        .estimate("other first %", 18, 1, |race| race.behind);
+        .left("family", |race| race.family)
+        .left("team", |race| race.team.name())
+        .left("against", |race| race.other.name())
+        .estimate("by s", 0, |race| race.gain)
+        .estimate("sooner %", 1, |race| race.sooner)
+        .estimate("both do %", 1, |race| race.both)
+        .estimate("it first %", 1, |race| race.ahead)
+        .estimate("other first %", 1, |race| race.behind);
     nodes.text() + &races.text()
 }
 
@@ -171,21 +171,21 @@ fn overlaps(merged: &Summary) -> String {
     );
     let means = Columns::of(named(merged))
         .title(title)
-        .left("family", 11, |(family, _)| family)
-        .left("team", 20, |(_, line)| line.team.name())
-        .estimate("efficiency", 13, 1, |(_, line)| line.efficiency)
-        .estimate("s to 88 %", 13, 0, |(_, line)| line.most)
-        .estimate("s to all", 13, 0, |(_, line)| line.all);
+        .left("family", |(family, _)| family)
+        .left("team", |(_, line)| line.team.name())
+        .estimate("efficiency", 1, |(_, line)| line.efficiency)
+        .estimate("s to 88 %", 0, |(_, line)| line.most)
+        .estimate("s to all", 0, |(_, line)| line.all);
     let shares = Columns::of(named(merged))
         .title(
             "% of the paths explored in the end, and % of the runs that reach \
                 88 %, that never drive all, that lose contact",
         )
-        .left("family", 11, |(family, _)| family)
-        .left("team", 20, |(_, line)| line.team.name())
-        .estimate("explored %", 13, 1, |(_, line)| line.explored)
-        .estimate("reach 88 %", 18, 1, |(_, line)| line.reached)
-        .estimate("never all %", 18, 1, |(_, line)| line.ended)
-        .estimate("out of contact %", 18, 1, |(_, line)| line.cut);
+        .left("family", |(family, _)| family)
+        .left("team", |(_, line)| line.team.name())
+        .estimate("explored %", 1, |(_, line)| line.explored)
+        .estimate("reach 88 %", 1, |(_, line)| line.reached)
+        .estimate("never all %", 1, |(_, line)| line.ended)
+        .estimate("out of contact %", 1, |(_, line)| line.cut);
     means.text() + &shares.text()
 }

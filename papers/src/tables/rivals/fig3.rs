@@ -149,10 +149,9 @@ impl Table for ChainFig3 {
         for (place, milestone) in MILESTONES.iter().enumerate() {
             let mut columns = Columns::of(&merged.areas)
                 .title(format!("Team moves to {} %", milestone.percent()))
-                .left("density", Fit, |area| area.area);
+                .left("density", |area| area.area);
             for (team, who) in Contender::all(pool).into_iter().enumerate() {
-                columns =
-                    columns.right(who.name(), Fit, move |area| area.teams[team].milestones[place].text());
+                columns = columns.right(who.name(), move |area| area.teams[team].milestones[place].text());
             }
             text += &columns.text();
         }

@@ -156,25 +156,25 @@ impl Table for ChainTable1 {
         let signed = |off: Option<f64>| off.map_or("-".to_owned(), |off| format!("{off:+.1}"));
         let paper = Columns::of(&merged.paper)
             .title("What the paper prints")
-            .left("", Fit, |line| &line.what)
-            .number("paper", 9, 0, |line| line.paper)
-            .number("ours", 14, 1, |line| line.ours)
-            .right("difference", 11, move |line| signed(line.difference))
-            .right("reached", 10, |line| format!("{}/{}", line.reached, line.runs));
+            .left("", |line| &line.what)
+            .number("paper", 0, |line| line.paper)
+            .number("ours", 1, |line| line.ours)
+            .right("difference", move |line| signed(line.difference))
+            .right("reached", |line| format!("{}/{}", line.reached, line.runs));
         let mut open = Columns::of(&merged.open)
             .title(format!("Team moves in {OPEN} until so much is explored"))
-            .left("team", Fit, |line| line.who.name());
+            .left("team", |line| line.who.name());
         for (place, milestone) in Milestone::ALL.into_iter().enumerate() {
             let percent = format!("{} %", milestone.percent());
-            open = open.right(percent, Fit, move |line| line.milestones[place].text());
+            open = open.right(percent, move |line| line.milestones[place].text());
         }
         let rooms = Columns::of(&merged.rooms)
             .title("Percent explored when a run is over; runs that explored all, and that were stopped")
-            .left("area", Fit, |share| share.room)
-            .left("team", Fit, |share| share.who.name())
-            .estimate("explored %", Fit, 1, |share| share.explored)
-            .right("all explored", Fit, |share| format!("{}/{}", share.whole, share.runs))
-            .right("stopped", Fit, |share| format!("{}/{}", share.stopped, share.runs));
+            .left("area", |share| share.room)
+            .left("team", |share| share.who.name())
+            .estimate("explored %", 1, |share| share.explored)
+            .right("all explored", |share| format!("{}/{}", share.whole, share.runs))
+            .right("stopped", |share| format!("{}/{}", share.stopped, share.runs));
         Ok([&heading, &paper.text(), &open.text(), &rooms.text()].map(String::as_str).concat())
     }
 
