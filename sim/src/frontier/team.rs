@@ -53,12 +53,12 @@ pub struct Explorers {
     is_wrong: bool,
     /// Whether one has entered in it as its frontier cell what a robot had entered before.
     is_again: bool,
-    /// Whether there was a team move.
-    has_begun: bool,
-    /// How much each robot knew before the last team move.
+    /// How much each robot knew before the last team move: nothing before the first one.
     known: Vec<usize>,
     /// Who has told something in the last team move, and who has not heard it.
     told_now: Vec<(usize, Vec<usize>)>,
+    /// The robot that has died.
+    dead: Option<usize>,
 }
 
 impl Explorers {
@@ -68,8 +68,7 @@ impl Explorers {
         let rule = Rule { threshold: options.threshold(), ..rule };
         let robot = |&start: &Cell| Robot::new(Chart::new(area), start, starts);
         let robots: Vec<Robot<Chart>> = starts.iter().map(robot).collect();
-        let others = starts.iter().map(|&cell| Other { cell, place: Place::midpoint(cell), aim: None });
-        let others: Vec<Other> = others.collect();
+        let other = |&cell: &Cell| Other { cell, place: Place::midpoint(cell), aim: None };
         let entered = robots.first().map_or_else(|| Chart::new(area), |robot| robot.map.clone());
         let heard = robots.iter().map(|robot| robot.map.len()).collect();
         let radio = Radio::new(options, area, seed);
@@ -80,7 +79,7 @@ impl Explorers {
             layout: layout.clone(),
             cells: starts.to_vec(),
             poses: starts.iter().copied().map(Pose::start).collect(),
-            told: vec![others; starts.len()],
+            told: vec![starts.iter().map(other).collect(); starts.len()],
             heard: vec![heard; starts.len()],
             radio,
             memory: Memory::new(area, starts.len()),
@@ -96,9 +95,9 @@ impl Explorers {
             entered,
             is_wrong: false,
             is_again: false,
-            has_begun: false,
-            known: vec![0; starts.len()],
+            known: Vec::new(),
             told_now: Vec::new(),
+            dead: None,
         }
     }
 
@@ -188,8 +187,8 @@ impl Explorers {
     /// By robot what it has learned in the last team move, and in the first one with what it knew before: where all
     /// start.
     pub fn news(&self) -> impl Iterator<Item = (usize, &[(Cell, Status)])> {
-        let news = |(robot, &known): (usize, &usize)| (robot, self.robots[robot].map.learned(known));
-        self.known.iter().enumerate().map(news)
+        let known = |robot: usize| self.known.get(robot).copied().unwrap_or(0);
+        self.robots.iter().enumerate().map(move |(robot, own)| (robot, own.map.learned(known(robot))))
     }
 
     /// The cells that robots have claimed.
@@ -202,6 +201,11 @@ impl Explorers {
         self.told_now.iter().map(|(from, deaf)| (*from, deaf))
     }
 
+    /// A robot dies: it stands where it is, and from now on neither goes nor tells anything. The others do not know it.
+    pub const fn dies(&mut self, robot: usize) {
+        self.dead = Some(robot);
+    }
+
     /// Makes a team move.
     ///
     /// # Errors
@@ -212,20 +216,19 @@ impl Explorers {
 
     /// Makes a team move, each robot by what `next` says of it.
     fn advance_by(&mut self, next: impl Fn(&mut Self, usize) -> Next) -> Result<Frame, TeamEnd> {
-        let robots = self.robots.len();
+        let (robots, dead) = (self.robots.len(), self.dead);
+        let living = || (0..robots).filter(|&robot| dead != Some(robot));
         let mut moves = Moves::none(robots);
         (self.is_wrong, self.is_again) = (false, false);
         self.told_now.clear();
-        if self.has_begun {
-            self.known = self.robots.iter().map(|robot| robot.map.len()).collect();
-        }
-        self.has_begun = true;
-        let before: usize = self.robots.iter().map(|robot| robot.map.len()).sum();
+        let known: Vec<usize> = self.robots.iter().map(|robot| robot.map.len()).collect();
+        let before: usize = known.iter().sum();
+        self.known = if self.known.is_empty() { vec![0; robots] } else { known };
         let mut does_any = false;
         let mut entering: Vec<Option<(Cell, Pose)>> = vec![None; robots];
         // Who stands, and who tries a frontier cell.
         let (mut stands, mut tries) = (vec![false; robots], vec![false; robots]);
-        for robot in 0..robots {
+        for robot in living() {
             let next = next(self, robot);
             does_any |= matches!(next, Next::Tries { .. } | Next::Waits);
             let Next::Tries { side, aim } = next else { continue };
@@ -259,7 +262,7 @@ impl Explorers {
             }
         }
         if !does_any {
-            let know_all = self.robots.iter().all(|robot| !has_more(&robot.map, robot.at()));
+            let know_all = living().all(|robot| !has_more(&self.robots[robot].map, self.robots[robot].at()));
             return Err(if know_all { TeamEnd::Known } else { TeamEnd::Still });
         }
         for (robot, to) in entering.into_iter().enumerate() {
@@ -282,9 +285,7 @@ impl Explorers {
         }
         self.unsure = (0..robots).filter(|&robot| stands[robot]).collect();
         self.stands += self.unsure.len();
-        for robot in 0..robots {
-            self.tell(robot);
-        }
+        living().for_each(|robot| self.tell(robot));
         self.slot = (self.slot + 1) % robots.max(1);
         let after: usize = self.robots.iter().map(|robot| robot.map.len()).sum();
         self.idle = if after == before { self.idle + 1 } else { 0 };
