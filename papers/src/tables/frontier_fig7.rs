@@ -5,8 +5,11 @@
 //! Blocked cells are drawn at random, so that the free ones are connected; so are the starts, each robot in a cell of
 //! its own.
 
+mod death;
+
 use std::num::NonZeroU32;
 
+use tautline_kernel::frontier::Rule;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
@@ -21,8 +24,14 @@ pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];
 /// The team that the paper says is best.
 const BEST: u16 = 8;
 
-/// The rules whose robots explore and tell each other: they run once more without the maps of the others.
-const TELLING: [&str; 4] = ["published", "repaired", "plain", "wanders"];
+/// The rules whose robots explore and tell each other: they run once more without the maps of the others, and once more
+/// with a robot that dies.
+const TELLING: [(&str, Rule); 4] = [
+    ("published", Rule::PUBLISHED),
+    ("repaired", Rule::REPAIRED),
+    ("plain", Rule::PLAIN),
+    ("wanders", Rule::WANDERS),
+];
 
 /// Every rule, with every team size.
 fn teams(settings: &Settings) -> impl Iterator<Item = (RuleId, u16)> {
@@ -74,6 +83,8 @@ pub struct Outcome {
     entered: Option<u32>,
     /// The team moves and the entered cells until then if no robot hears another one, for some rules.
     unheard: Option<[u32; 2]>,
+    /// Cells that are left out if one robot dies, and those of them that the others could get to, for some rules.
+    left: Option<[u32; 2]>,
 }
 
 /// The whole figure.
@@ -117,6 +128,10 @@ pub struct Line {
     pub entered: Option<Estimate>,
     /// How many more of them there are on the layouts of `sooner` if no robot hears of another one's map.
     pub spared: Option<Estimate>,
+    /// Runs in which every cell is explored although one robot dies, in percent.
+    pub tolerant: Option<Estimate>,
+    /// Runs in which one robot dies and the others explore every cell that they can get to, in percent.
+    pub cleared: Option<Estimate>,
 }
 
 impl Settings {
@@ -167,16 +182,19 @@ impl Table for FrontierFig7 {
         };
         let measured = teams(settings).map(|(rule, robots)| {
             let (report, entered) = with(rule, robots, Probability::NEVER)?;
-            let tells = TELLING.contains(&rule.as_str());
-            let alone = tells.then(|| with(rule, robots, Probability::ALWAYS)).transpose()?;
+            let tells = TELLING.iter().find(|(name, _)| *name == rule.as_str());
+            let alone = tells.map(|_| with(rule, robots, Probability::ALWAYS)).transpose()?;
+            let moves = report.reached(Milestone::Whole);
+            let (starts, last) = (&starts[..robots.into()], moves.unwrap_or(report.steps));
             Ok(Outcome {
-                moves: report.reached(Milestone::Whole),
+                moves,
                 explored: report.explored * 1000 / report.cells,
                 is_double: breaks(&report, ALONE) > 0,
                 again: alone.as_ref().map(|(alone, _)| [&report, alone].map(|report| breaks(report, ONCE))),
                 entered,
                 unheard: alone
                     .and_then(|(alone, entered)| Some([alone.reached(Milestone::Whole)?, entered?])),
+                left: tells.and_then(|&(_, rule)| death::left(rule, &layout, starts, last, seed)),
             })
         });
         measured.collect()
@@ -200,7 +218,7 @@ impl Table for FrontierFig7 {
         let moves = format!(
             "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
         );
-        let parts: [Part<'_>; 10] = [
+        let parts: [Part<'_>; 12] = [
             (&moves, |line| line.moves),
             (
                 "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell",
@@ -224,6 +242,10 @@ impl Table for FrontierFig7 {
             ("How many more of them on those layouts if no robot hears another one's map", |line| {
                 line.spared
             }),
+            ("Runs that explore every cell although one robot dies, in %", |line| line.tolerant),
+            ("Runs in which one dies and the others explore every cell that they can get to, in %", |line| {
+                line.cleared
+            }),
         ];
         let part = |(title, of): Part<'_>| {
             let rules = merged.lines.chunks(sizes.len());
@@ -240,6 +262,7 @@ impl Table for FrontierFig7 {
         let mut sentences = judged(&merged.lines);
         sentences.extend(best_of_all(&merged.lines));
         sentences.extend(of_teams(&merged.lines));
+        sentences.extend(death::judged(&merged.lines));
         sentences
     }
 
@@ -339,6 +362,8 @@ impl Line {
     fn of(rule: RuleId, robots: u16, outcomes: &[Outcome], [repaired, one]: &[Vec<Outcome>; 2]) -> Self {
         let percent =
             |is_such: fn(&Outcome) -> bool| share(outcomes, is_such).map(|share| share.times(100.0));
+        let deaths: Vec<[u32; 2]> = outcomes.iter().filter_map(|outcome| outcome.left).collect();
+        let none_left = |of: usize| share(&deaths, |left| left[of] == 0).map(|share| share.times(100.0));
         let worse = share(outcomes.iter().zip(one), |(own, one)| own.is_worse(one));
         let unheard = |place: usize, heard: fn(&Outcome) -> Option<u32>| {
             let more = move |one: &Outcome| Some(f64::from(one.unheard?[place]) - f64::from(heard(one)?));
@@ -361,8 +386,20 @@ impl Line {
             sooner: unheard(0, |one| one.moves),
             entered: mean(outcomes.iter().filter_map(|one| one.entered.map(f64::from))),
             spared: unheard(1, |one| one.entered),
+            tolerant: none_left(0),
+            cleared: none_left(1).filter(|_| robots > 1),
         }
     }
+}
+
+/// The 95 % interval of an estimate.
+fn ends(estimate: Option<Estimate>) -> Option<[f64; 2]> {
+    estimate.and_then(|estimate| estimate.interval)
+}
+
+/// Whether the paper's sentences about several robots are judged of this team.
+fn is_judged(line: &&Line) -> bool {
+    ["published", "repaired", "wanders"].contains(&line.rule.as_str()) && [2, BEST].contains(&line.robots)
 }
 
 /// The paper's sentences about Fig. 7, judged by what is measured.
@@ -374,7 +411,6 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
     let percent =
         |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| text(of(rule, robots).and_then(part), 1);
     let estimate = |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| of(rule, robots).and_then(part);
-    let ends = |estimate: Option<Estimate>| estimate.and_then(|estimate| estimate.interval);
     let whole = estimate(|line| line.whole, "published", 1).map(|whole| whole.times(0.01));
     let alone = estimate(|line| line.double, "published", 8).map(|double| double.times(0.01).rest());
     let largest = lines.iter().map(|line| line.robots).max().unwrap_or(BEST);
@@ -442,14 +478,13 @@ fn best_of_all(lines: &[Line]) -> Vec<Judgement> {
         let eight = lines.iter().find(|line| line.robots == BEST)?;
         let larger = lines.iter().filter(|line| line.robots > BEST);
         let fastest = larger.min_by(|one, other| one.mean().total_cmp(&other.mean()))?;
-        let ends = |line: &Line| line.moves.and_then(|moves| moves.interval);
         let measured = format!(
             "{} team moves with {BEST}, {} with {}",
             text(eight.moves, 1),
             text(fastest.moves, 1),
             fastest.robots
         );
-        let is_best = below(ends(eight), ends(fastest));
+        let is_best = below(ends(eight.moves), ends(fastest.moves));
         Some(Judgement::new(
             "“performs better when team of robots has 8 members”, best of all",
             who,
@@ -466,11 +501,7 @@ fn best_of_all(lines: &[Line]) -> Vec<Judgement> {
 /// The paper's sentences about several robots beside one, and about robots that share their maps beside such that do
 /// not. The energy of a team is taken to be the cells that its robots enter.
 fn of_teams(lines: &[Line]) -> Vec<Judgement> {
-    let ends = |estimate: Option<Estimate>| estimate.and_then(|estimate| estimate.interval);
     let nothing = Some([0.0, 0.0]);
-    let is_judged = |line: &&Line| {
-        ["published", "repaired", "wanders"].contains(&line.rule.as_str()) && [2, BEST].contains(&line.robots)
-    };
     let teams = lines.iter().filter(is_judged);
     let one = |line: &Line| lines.iter().find(|one| one.rule == line.rule && one.robots == 1);
     let judged = |line: &Line| {
