@@ -541,6 +541,11 @@ fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
     assert_eq!((&area["miss"], area["lines"].as_array().map(Vec::len)), (&0.0556.into(), Some(64)));
     let ideal = json(folder, &[&["reproduce", "bricks-ideal"], &short[..]].concat(), 0);
     assert_eq!((&ideal["miss"], &ideal["lines"][3]["visited"]), (&0.0.into(), &Value::Null));
+    let apart = [&["reproduce", "bricks-ideal", "--starts", "apart"], &short[..]].concat();
+    assert!(on_any_threads(folder, &apart).contains("\nEach agent starts in a cell of its own\n"));
+    assert!(
+        refused(folder, &[&apart[..3], &["roof"]].concat()).contains("possible values: centre, apart, edge")
+    );
 }
 
 #[test]

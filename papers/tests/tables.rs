@@ -146,6 +146,32 @@ fn jobs_give_the_same_table_in_any_order_and_in_shards_and_its_json_is_as_its_sc
 }
 
 #[test]
+fn a_figure_of_agents_says_where_they_start_unless_that_is_the_centre() {
+    let table = find("bricks-ideal").expect("it is in the catalogue");
+    let measured = |starts: Option<&'static str>| {
+        let given =
+            [("runs", "1"), ("max-steps", "500")].into_iter().chain(starts.map(|word| ("starts", word)));
+        let given: Vec<_> = given.map(|(name, word)| (name.to_owned(), vec![word.to_owned()])).collect();
+        let asked = table.asked(&given).expect("values that it reads");
+        let made = asked.run(&()).expect("a table");
+        let json: Value = serde_json::from_str(&made.json(1).expect("JSON")).expect("JSON");
+        schema::check("reproduce-bricks-ideal", &json, "bricks-ideal");
+        json
+    };
+    let [untold, centre, apart, edge] = [None, Some("centre"), Some("apart"), Some("edge")].map(measured);
+    assert_eq!(untold, centre);
+    assert_eq!(
+        [&centre["starts"], &apart["starts"], &edge["starts"]],
+        [&Value::Null, &"apart".into(), &"edge".into()]
+    );
+    assert!(
+        apart["lines"] != centre["lines"]
+            && edge["lines"] != centre["lines"]
+            && apart["lines"] != edge["lines"]
+    );
+}
+
+#[test]
 fn searches_of_the_atlas_find_the_same_in_any_order() {
     let asked = find("atlas").expect("it is in the catalogue").asked(&[]).expect("no value");
     let jobs = asked.jobs().expect("jobs");
@@ -262,7 +288,7 @@ fn what_stands_for_an_option_that_is_not_given_is_what_its_settings_have() {
 
 #[test]
 fn every_option_can_be_wrong_and_changes_the_settings() {
-    let values = ["9", "2", "5", "shared", "once", "largest", "1,2,3,4", "open:4x3", "0.25"];
+    let values = ["9", "2", "5", "shared", "once", "largest", "apart", "1,2,3,4", "open:4x3", "0.25"];
     for table in TABLES {
         let unasked = table.asked(&[]).and_then(|asked| asked.settings()).expect("settings");
         for (option, _) in table.options() {

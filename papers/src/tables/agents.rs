@@ -3,16 +3,19 @@
 //! (Fig. 12); and how long they take where none is (the idealized conditions that the paper takes from its reference
 //! 2).
 //!
-//! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre, and all teams get the same
-//! layouts and seeds. A run that goes on is ended after a number of agents' steps, and counted.
+//! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre if nothing else is said, and all
+//! teams get the same layouts, seeds and starts. A run that goes on is ended after a number of agents' steps, and
+//! counted.
 
 mod charts;
 mod figure;
+mod start;
 mod team;
 mod text;
 
 use self::figure::Figure;
 pub use self::figure::{Duration, Line, Summary};
+pub use self::start::Start;
 pub(super) use self::team::Crew;
 pub use self::team::{Outcome, TEAMS, Team};
 use super::prelude::*;
@@ -80,6 +83,8 @@ settings! {
         pub seed: u64 = 0, one("seed", "SEED", number);
         /// Steps of all agents together after which a run is ended
         pub max_steps: u32 = 200_000, one("max-steps", "STEPS", from_to(1..=u32::MAX.into()));
+        /// Where the agents start
+        pub starts: Start = Start::Centre, word("starts", "WHERE");
     }
 }
 
@@ -107,13 +112,13 @@ impl Table for Agents {
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let ((side, agents), seed) = (run.at, run.seed(settings.seed));
         let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
-        let starts = vec![layout.default_base()?; agents.into()];
+        let starts = settings.starts.cells(&layout, agents, seed)?;
         let run = |(team, miss): (Team, _)| team.crew.run(&layout, &starts, (miss, seed), settings.max_steps);
         Ok(self.figure.runs().into_iter().map(run).collect())
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
-        let Settings { layouts, seed, max_steps } = *settings;
+        let Settings { layouts, seed, max_steps, starts } = *settings;
         let lines_at = |(side, agents)| {
             let here = at(&results, (side, agents));
             let line = |(place, (team, _))| {
@@ -129,7 +134,8 @@ impl Table for Agents {
         let [lines, unmissed]: [Vec<Line>; 2] =
             [lines, unmissed].map(|lines| lines.into_iter().map(|(_, line)| line).collect());
         let paper = text::of(self.figure, &lines);
-        Ok(Summary { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, unmissed, paper })
+        let miss = self.figure.miss().into();
+        Ok(Summary { layouts, seed, miss, max_steps, starts, lines, unmissed, paper })
     }
 
     fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {

@@ -1,6 +1,7 @@
 //! The points of a figure, and the means of the runs of a team at one of them.
 
 use super::super::prelude::*;
+use super::start::Start;
 use super::team::{BRICKS_PUBLISHED, Moment, Outcome, READINGS, TEAMS, Team};
 use tautline_grids::chance::Probability;
 use tautline_sim::explore::Knowledge;
@@ -74,6 +75,9 @@ pub struct Summary {
     pub(super) seed: u64,
     pub(super) miss: f64,
     pub(super) max_steps: u32,
+    /// Where the agents start, if not all in the cell nearest the centre.
+    #[serde(skip_serializing_if = "Start::is_default")]
+    pub(super) starts: Start,
     /// Point by point, each of all teams.
     pub lines: Vec<Line>,
     /// The paper's teams with no sensor missed, point by point, in Fig. 11.

@@ -274,11 +274,12 @@ pub(super) fn text(figure: Figure, merged: &Summary) -> String {
         lines => moves(merged, lines).title("Of these offices with no sensor missed").text(),
     };
     format!(
-        "Offices of 4x4 rooms, {missed}, {} at each point, seeds from {}; means with 95 % intervals\n\n{}{unmissed}\n\
+        "Offices of 4x4 rooms, {missed}, {} at each point, seeds from {}; means with 95 % intervals\n{}\n{}{unmissed}\n\
          ended: runs that were stopped after {} of all agents. Where fewer than all runs explored every cell, or were\n\
          done, their number follows.\n{seconds}\n{}",
         counted(merged.layouts, "layout"),
         merged.seed,
+        merged.starts.line(),
         moves(merged, &merged.lines).text(),
         counted(merged.max_steps, "step"),
         paper::text(&merged.paper, 1)
