@@ -5,7 +5,9 @@
 //! Blocked cells are drawn at random, so that the free ones are connected; so are the starts, each robot in a cell of
 //! its own.
 
+mod claims;
 mod death;
+mod line;
 
 use std::num::NonZeroU32;
 
@@ -13,6 +15,7 @@ use tautline_kernel::frontier::Rule;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
+use line::{Line, Outcome};
 use tautline_grids::chance::{Dice, Probability};
 use tautline_sim::explore::frontier::{ALONE, FRONTIER, ONCE};
 use tautline_sim::explore::{ClauseId, Limits, Milestone, Report, RuleId, Setup, explore};
@@ -20,9 +23,6 @@ use tautline_sim::options::Options;
 
 /// Team sizes that the paper compares.
 pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];
-
-/// The team that the paper says is best.
-const BEST: u16 = 8;
 
 /// The rules whose robots explore and tell each other: they run once more without the maps of the others, and once more
 /// with a robot that dies.
@@ -67,26 +67,6 @@ settings! {
 /// A run of every team in one layout.
 type Job = Run<()>;
 
-/// The outcome of one run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Outcome {
-    /// Team moves until every cell is explored, if all are.
-    moves: Option<u32>,
-    /// Explored cells, in thousandths.
-    explored: u32,
-    /// Whether two robots were in one cell.
-    is_double: bool,
-    /// Team moves in which a robot entered as its frontier cell what one had entered before, and how many these are if
-    /// no robot hears another one; for some rules.
-    again: Option<[u32; 2]>,
-    /// Cells that all robots together enter until every cell is explored, if all are.
-    entered: Option<u32>,
-    /// The team moves and the entered cells until then if no robot hears another one, for some rules.
-    unheard: Option<[u32; 2]>,
-    /// Cells that are left out if one robot dies, and those of them that the others could get to, for some rules.
-    left: Option<[u32; 2]>,
-}
-
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Summary {
@@ -94,44 +74,6 @@ pub struct Summary {
     settings: Settings,
     /// Rule by rule, each for all teams.
     pub lines: Vec<Line>,
-}
-
-/// A team of a rule.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Line {
-    /// The rule.
-    pub rule: RuleId,
-    /// Robots.
-    pub robots: u16,
-    /// Team moves until every cell is explored, over the runs that explore all.
-    pub moves: Option<Estimate>,
-    /// Team moves more than the repaired rule takes on the same layout, over the layouts of which both explore every
-    /// cell.
-    pub behind: Option<Estimate>,
-    /// Runs that explore every cell, in percent.
-    pub whole: Option<Estimate>,
-    /// Explored cells, in percent.
-    pub explored: Option<Estimate>,
-    /// Runs in which two robots were in one cell, in percent.
-    pub double: Option<Estimate>,
-    /// Team moves of a run in which a robot enters as its frontier cell what one has entered before.
-    pub again: Option<Estimate>,
-    /// How many more of them there are on the same layouts if no robot hears of another one's map.
-    pub saved: Option<Estimate>,
-    /// Layouts on which the team takes more team moves than one robot of the same rule, or explores fewer cells, in
-    /// percent.
-    pub worse: Option<Estimate>,
-    /// How many more team moves it takes on the same layouts if no robot hears of another one's map, over those of
-    /// which both explore every cell.
-    pub sooner: Option<Estimate>,
-    /// Cells that all robots together enter until every cell is explored, over the runs that explore all.
-    pub entered: Option<Estimate>,
-    /// How many more of them there are on the layouts of `sooner` if no robot hears of another one's map.
-    pub spared: Option<Estimate>,
-    /// Runs in which every cell is explored although one robot dies, in percent.
-    pub tolerant: Option<Estimate>,
-    /// Runs in which one robot dies and the others explore every cell that they can get to, in percent.
-    pub cleared: Option<Estimate>,
 }
 
 impl Settings {
@@ -259,11 +201,7 @@ impl Table for FrontierFig7 {
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        let mut sentences = judged(&merged.lines);
-        sentences.extend(best_of_all(&merged.lines));
-        sentences.extend(of_teams(&merged.lines));
-        sentences.extend(death::judged(&merged.lines));
-        sentences
+        claims::judged(&merged.lines)
     }
 
     /// Team moves over robots, a line for each rule.
@@ -342,206 +280,4 @@ fn follow(
 /// The team moves of a run that break this clause.
 fn breaks(report: &Report, clause: ClauseId) -> u32 {
     report.violations.iter().filter(|violation| violation.clause == clause).count() as u32
-}
-
-impl Outcome {
-    /// Whether it explores fewer cells than `other` on the same layout, or all of them in more team moves.
-    fn is_worse(&self, other: &Self) -> bool {
-        let is_slower = self.moves.zip(other.moves).is_some_and(|(own, other)| own > other);
-        is_slower || self.explored < other.explored
-    }
-}
-
-impl Line {
-    /// The mean of the team moves, where a run explores every cell.
-    fn mean(&self) -> f64 {
-        self.moves.map_or(f64::INFINITY, |moves| moves.mean)
-    }
-
-    /// Beside these outcomes those of repaired robots, and of one robot of the same rule.
-    fn of(rule: RuleId, robots: u16, outcomes: &[Outcome], [repaired, one]: &[Vec<Outcome>; 2]) -> Self {
-        let percent =
-            |is_such: fn(&Outcome) -> bool| share(outcomes, is_such).map(|share| share.times(100.0));
-        let deaths: Vec<[u32; 2]> = outcomes.iter().filter_map(|outcome| outcome.left).collect();
-        let none_left = |of: usize| share(&deaths, |left| left[of] == 0).map(|share| share.times(100.0));
-        let worse = share(outcomes.iter().zip(one), |(own, one)| own.is_worse(one));
-        let unheard = |place: usize, heard: fn(&Outcome) -> Option<u32>| {
-            let more = move |one: &Outcome| Some(f64::from(one.unheard?[place]) - f64::from(heard(one)?));
-            mean(outcomes.iter().filter_map(more))
-        };
-        let more = |(own, other): (&Outcome, &Outcome)| Some(f64::from(own.moves?) - f64::from(other.moves?));
-        let again = |one: &Outcome| one.again.map(|[heard, _]| f64::from(heard));
-        let saved = |one: &Outcome| one.again.map(|[heard, alone]| f64::from(alone) - f64::from(heard));
-        Self {
-            rule,
-            robots,
-            moves: mean(outcomes.iter().filter_map(|outcome| outcome.moves.map(f64::from))),
-            behind: mean(outcomes.iter().zip(repaired).filter_map(more)),
-            whole: percent(|outcome| outcome.moves.is_some()),
-            explored: mean(outcomes.iter().map(|outcome| f64::from(outcome.explored) / 10.0)),
-            double: percent(|outcome| outcome.is_double),
-            again: mean(outcomes.iter().filter_map(again)),
-            saved: mean(outcomes.iter().filter_map(saved)),
-            worse: worse.map(|share| share.times(100.0)),
-            sooner: unheard(0, |one| one.moves),
-            entered: mean(outcomes.iter().filter_map(|one| one.entered.map(f64::from))),
-            spared: unheard(1, |one| one.entered),
-            tolerant: none_left(0),
-            cleared: none_left(1).filter(|_| robots > 1),
-        }
-    }
-}
-
-/// The 95 % interval of an estimate.
-fn ends(estimate: Option<Estimate>) -> Option<[f64; 2]> {
-    estimate.and_then(|estimate| estimate.interval)
-}
-
-/// Whether the paper's sentences about several robots are judged of this team.
-fn is_judged(line: &&Line) -> bool {
-    ["published", "repaired", "wanders"].contains(&line.rule.as_str()) && [2, BEST].contains(&line.robots)
-}
-
-/// The paper's sentences about Fig. 7, judged by what is measured.
-fn judged(lines: &[Line]) -> Vec<Judgement> {
-    let of = |rule: &str, robots: u16| {
-        lines.iter().find(|line| line.rule.as_str() == rule && line.robots == robots)
-    };
-    let moves = |rule: &str, robots| text(of(rule, robots).and_then(|line| line.moves), 1);
-    let percent =
-        |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| text(of(rule, robots).and_then(part), 1);
-    let estimate = |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| of(rule, robots).and_then(part);
-    let whole = estimate(|line| line.whole, "published", 1).map(|whole| whole.times(0.01));
-    let alone = estimate(|line| line.double, "published", 8).map(|double| double.times(0.01).rest());
-    let largest = lines.iter().map(|line| line.robots).max().unwrap_or(BEST);
-    let [eight, six] = [8, 6].map(|robots| ends(estimate(|line| line.moves, "wanders", robots)));
-    let less = |(rule, who): (&str, &str)| {
-        let again = estimate(|line| line.again, rule, 8);
-        let saved = estimate(|line| line.saved, rule, 8);
-        Judgement::new(
-            "maps are exchanged “to reduce overlapping”",
-            who,
-            format!(
-                "in {} team moves of a run one explores a cell again, in {} more if it hears no map",
-                text(again, 1),
-                text(saved, 1)
-            ),
-            below(Some([0.0, 0.0]), ends(saved)),
-        )
-    };
-    let mut judged = vec![
-        Judgement::new(
-            "“performs better when team of robots has 8 members”",
-            "robots that wander",
-            format!(
-                "{} team moves with 6 and {} with 8, repaired {} and {}; \
-                 {largest} is the largest team that is compared",
-                moves("wanders", 6),
-                moves("wanders", 8),
-                moves("repaired", 6),
-                moves("repaired", 8)
-            ),
-            below(eight, six),
-        ),
-        Judgement::new(
-            "“avoiding … missing out sectors”",
-            "one published robot",
-            format!(
-                "{} % of the cells, and all of them in {} % of the runs; repaired {} %",
-                percent(|line| line.explored, "published", 1),
-                percent(|line| line.whole, "published", 1),
-                percent(|line| line.whole, "repaired", 1)
-            ),
-            always(whole),
-        ),
-        Judgement::new(
-            "“avoiding overlapping”",
-            "8 published robots",
-            format!(
-                "in {} % of the runs two are in one cell; repaired {} %",
-                percent(|line| line.double, "published", 8),
-                percent(|line| line.double, "repaired", 8)
-            ),
-            always(alone),
-        ),
-    ];
-    judged.extend([("published", "8 published robots"), ("wanders", "8 robots that wander")].map(less));
-    judged
-}
-
-/// The paper's sentence about eight robots, where larger teams are measured, too: no larger team of robots that wander,
-/// as of repaired ones, explores every cell in fewer team moves.
-fn best_of_all(lines: &[Line]) -> Vec<Judgement> {
-    let of = |rule: &str| -> Vec<&Line> { lines.iter().filter(|line| line.rule.as_str() == rule).collect() };
-    let judged = |(rule, who): (&str, &str)| {
-        let lines = of(rule);
-        let eight = lines.iter().find(|line| line.robots == BEST)?;
-        let larger = lines.iter().filter(|line| line.robots > BEST);
-        let fastest = larger.min_by(|one, other| one.mean().total_cmp(&other.mean()))?;
-        let measured = format!(
-            "{} team moves with {BEST}, {} with {}",
-            text(eight.moves, 1),
-            text(fastest.moves, 1),
-            fastest.robots
-        );
-        let is_best = below(ends(eight.moves), ends(fastest.moves));
-        Some(Judgement::new(
-            "“performs better when team of robots has 8 members”, best of all",
-            who,
-            measured,
-            is_best,
-        ))
-    };
-    [("wanders", "robots that wander"), ("repaired", "repaired robots")]
-        .into_iter()
-        .filter_map(judged)
-        .collect()
-}
-
-/// The paper's sentences about several robots beside one, and about robots that share their maps beside such that do
-/// not. The energy of a team is taken to be the cells that its robots enter.
-fn of_teams(lines: &[Line]) -> Vec<Judgement> {
-    let nothing = Some([0.0, 0.0]);
-    let teams = lines.iter().filter(is_judged);
-    let one = |line: &Line| lines.iter().find(|one| one.rule == line.rule && one.robots == 1);
-    let judged = |line: &Line| {
-        let one = one(line);
-        let worse = line.worse.map(|worse| worse.times(0.01).rest());
-        let [moves, entered] = [|line: &Line| line.moves, |line: &Line| line.entered].map(|of| {
-            (text(of(line), 1), text(one.and_then(of), 1), below(ends(of(line)), ends(one.and_then(of))))
-        });
-        let more = |what: &str, more: Option<Estimate>| format!("{} more {what} without", text(more, 1));
-        [
-            (
-                "“always advantages over single robot exploration strategies as the total time … will be reduced” (1)",
-                format!("on {} % of the layouts slower, or with fewer cells explored", text(line.worse, 1)),
-                always(worse),
-            ),
-            (
-                "“the total time … will be reduced” (1), in the mean",
-                format!("{} team moves, one robot {}", moves.0, moves.1),
-                moves.2,
-            ),
-            (
-                "shared maps: “complete the exploration in lesser time” (4.5)",
-                more("team moves", line.sooner),
-                below(nothing, ends(line.sooner)),
-            ),
-            (
-                "“which is energy efficient” (4.5), than without maps: fewer cells entered",
-                more("cells", line.spared),
-                below(nothing, ends(line.spared)),
-            ),
-            (
-                "“which is energy efficient” (4.5), than one robot: fewer cells entered",
-                format!("{} cells, one robot {}", entered.0, entered.1),
-                entered.2,
-            ),
-        ]
-        .map(|(sentence, measured, verdict)| {
-            Judgement::new(sentence, format!("{} robots, {}", line.robots, line.rule), measured, verdict)
-        })
-    };
-    let judged: Vec<[Judgement; 5]> = teams.map(judged).collect();
-    (0..5).flat_map(|place| judged.iter().map(move |team| team[place].clone())).collect()
 }

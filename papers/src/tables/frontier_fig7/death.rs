@@ -14,7 +14,6 @@ use tautline_sim::frontier::Explorers;
 use tautline_sim::options::Options;
 
 use super::super::prelude::*;
-use super::{Line, ends, is_judged};
 
 /// How many cells are left out if one robot dies, and how many of them the others could get to. The robot is drawn, and
 /// so are the team moves before its death, fewer than `moves`.
@@ -43,66 +42,12 @@ pub(super) fn left(rule: Rule, layout: &Layout, starts: &[Cell], moves: u32, see
     Some([left.len() as u32, due(&left)])
 }
 
-/// The paper's sentence, in the mean of the layouts and on each of them.
-pub(super) fn judged(lines: &[Line]) -> Vec<Judgement> {
-    let teams = || lines.iter().filter(is_judged);
-    let who = |line: &Line| format!("{} robots, {}, one dies", line.robots, line.rule);
-    let in_mean = |line: &Line| {
-        let one = lines.iter().find(|one| one.rule == line.rule && one.robots == 1);
-        let one = one.and_then(|one| one.tolerant);
-        let measured =
-            format!("every cell in {} % of the runs, one robot {} %", text(line.tolerant, 1), text(one, 1));
-        Judgement::new(
-            "“fault tolerance will be improved” (1), in the mean",
-            who(line),
-            measured,
-            below(ends(one), ends(line.tolerant)),
-        )
-    };
-    let on_each = |line: &Line| {
-        let measured = format!("all that the others can get to in {} % of the runs", text(line.cleared, 1));
-        let verdict = always(line.cleared.map(|cleared| cleared.times(0.01)));
-        Judgement::new("“fault tolerance will be improved” (1), on each layout", who(line), measured, verdict)
-    };
-    teams().map(in_mean).chain(teams().map(on_each)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use tautline_sim::explore::{Milestone, RuleId};
 
-    use super::super::{Outcome, drawn, follow};
+    use super::super::{drawn, follow};
     use super::*;
-
-    /// A team of so many repaired robots, whose runs leave out these cells.
-    fn line(robots: u16, left: &[[u32; 2]]) -> Line {
-        let outcome = |left: &[u32; 2]| Outcome {
-            moves: Some(9),
-            explored: 1000,
-            is_double: false,
-            again: None,
-            entered: None,
-            unheard: None,
-            left: Some(*left),
-        };
-        let outcomes: Vec<Outcome> = left.iter().map(outcome).collect();
-        Line::of(RuleId::REPAIRED, robots, &outcomes, &[Vec::new(), Vec::new()])
-    }
-
-    #[test]
-    fn a_team_tolerates_a_death_in_the_mean_or_on_each_layout() {
-        use Verdict::{Fails, Holds, Open};
-        let alone = line(1, &[[7, 0]; 100]);
-        assert_eq!((alone.tolerant.map(|share| share.mean), alone.cleared), (Some(0.0), None));
-        let verdicts = |left: &[[u32; 2]]| -> Vec<Verdict> {
-            judged(&[alone.clone(), line(2, left)]).iter().map(|judgement| judgement.verdict).collect()
-        };
-        assert_eq!(verdicts(&[[0, 0]; 100]), [Holds, Holds]);
-        assert_eq!(verdicts(&[[4, 0]; 100]), [Open, Holds], "the body shuts the way");
-        let mut one = [[0, 0]; 100];
-        one[30] = [4, 1];
-        assert_eq!(verdicts(&one), [Holds, Fails], "on one layout they leave out what they can get to");
-    }
 
     #[test]
     fn the_body_of_a_robot_shuts_a_corridor_to_robots_that_look() {
