@@ -34,6 +34,11 @@ pub(super) fn share<T>(
     Estimate::share(count(all, is_such), of)
 }
 
+/// The 95 % interval of an estimate, if it has one.
+pub(super) fn ends(estimate: Option<Estimate>) -> Option<[f64; 2]> {
+    estimate.and_then(|estimate| estimate.interval)
+}
+
 /// An estimate for people, with so many decimals; a dash for none.
 pub(super) fn text(estimate: impl Into<Option<Estimate>>, decimals: usize) -> String {
     Estimate::text_or_dash(estimate.into(), decimals)

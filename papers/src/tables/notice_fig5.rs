@@ -290,9 +290,8 @@ fn farthest(densities: &[Density]) -> Option<Judgement> {
     let mut verdict = Verdict::Holds;
     for density in densities {
         let [first, others @ ..] = &density.forwarding[..] else { return None };
-        let of = |share: &Option<Estimate>| share.and_then(|share| share.interval);
         for other in others {
-            verdict = verdict.and(below(of(other), of(first)));
+            verdict = verdict.and(below(ends(*other), ends(*first)));
         }
     }
     let least = densities.iter().filter_map(|density| Some((density, (*density.forwarding.first()?)?)));

@@ -5,7 +5,7 @@ pub(super) use serde::{Deserialize, Serialize};
 pub(super) use tautline_proofs::plural::counted;
 
 pub(super) use super::columns::Columns;
-pub(super) use super::estimates::{count, mean, percent, plain, ratio, seconds, share, text};
+pub(super) use super::estimates::{count, ends, mean, percent, plain, ratio, seconds, share, text};
 pub(super) use super::paper::{self, PrintedFigure};
 pub(super) use super::parameter::{
     Senders, flag, from_to, joined, layout_name, list, nested, one, renamed, repeated, settings, thousandths,

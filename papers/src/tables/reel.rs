@@ -260,7 +260,7 @@ impl RuleLine {
             reached: count(own, |own| own.moves[goal].is_some()),
             mean: mean(pairs.iter().map(|&(own, _)| own)).map(|mean| hundredths(mean.mean)),
             ratio: ratio.map(|ratio| hundredths(ratio.mean)),
-            interval: ratio.and_then(|ratio| ratio.interval).map(|interval| interval.map(hundredths)),
+            interval: ends(ratio).map(|interval| interval.map(hundredths)),
             slower: count(&pairs, |(own, other)| own > other),
         }
     }

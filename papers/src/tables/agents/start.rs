@@ -27,13 +27,13 @@ impl NamedValues for Start {
 }
 
 impl Start {
-    /// The cells of so many agents, all in the part of `layout` in which the cell nearest the centre is.
+    /// The cells of so many agents, all in the part of `layout` in which the free cell nearest the centre is.
     ///
     /// # Errors
-    /// [`Halt`] when that part has no free cell, or [`Start::Apart`] fewer than agents.
+    /// [`Halt`] when no cell is free, or that part has fewer cells than agents that start [`Start::Apart`].
     pub(super) fn cells(self, layout: &Layout, agents: u16, seed: u64) -> Result<Vec<Cell>, Halt> {
         let centre = layout.default_base()?;
-        let mut part = layout.reachable(&[centre]);
+        let part = || layout.reachable(&[centre]);
         let from_door = |cell: &Cell| {
             let (x, y) = (2 * i64::from(cell.x) - i64::from(layout.width()) + 1, 2 * i64::from(cell.y));
             x * x + y * y
@@ -41,15 +41,16 @@ impl Start {
         let all_in = |cell| vec![cell; agents.into()];
         match self {
             Self::Centre => Ok(all_in(centre)),
-            Self::Edge => Ok(all_in(part.into_iter().min_by_key(from_door).unwrap_or(centre))),
-            Self::Apart if part.len() < agents.into() => {
-                let what = format!("{agents} agents have no cells of their own: there are {}", part.len());
-                Err(Diagnostic::usage(what, "let fewer agents start").into())
-            }
+            Self::Edge => Ok(all_in(part().into_iter().min_by_key(from_door).unwrap_or(centre))),
             Self::Apart => {
-                let mut dice = Dice::new(seed, *b"starts  ");
-                let mut draw = |_| part.swap_remove(dice.below(part.len() as u64) as usize);
-                Ok((0..agents).map(&mut draw).collect())
+                let (mut part, mut dice) = (part(), Dice::new(seed, *b"starts  "));
+                if part.len() < agents.into() {
+                    let what =
+                        format!("{agents} agents have no cells of their own: there are {}", part.len());
+                    return Err(Diagnostic::usage(what, "let fewer agents start").into());
+                }
+                let draw = |_| part.swap_remove(dice.below(part.len() as u64) as usize);
+                Ok((0..agents).map(draw).collect())
             }
         }
     }

@@ -148,7 +148,6 @@ fn moves_or_runs(merged: &Summary, line: &Line) -> String {
 /// Whether every cell is explored in fewer than so many team moves, which all runs of another team of as many agents
 /// took. Where fewer than half of the runs explore every cell, the median run takes longer than any of those.
 fn is_sooner(merged: &Summary, line: &Line, others: Option<Estimate>) -> Verdict {
-    let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
     match moves_of_all(merged, line) {
         None => Verdict::decided(false, others.is_some() && 2 * whole(line) < merged.layouts),
         moves => below(ends(moves), ends(others)),

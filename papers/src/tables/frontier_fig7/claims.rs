@@ -11,11 +11,6 @@ pub(super) fn judged(lines: &[Line]) -> Vec<Judgement> {
     [of_figure, best_of_all, of_teams, fault_tolerance].map(|judged| judged(lines)).concat()
 }
 
-/// The 95 % interval of an estimate.
-fn ends(estimate: Option<Estimate>) -> Option<[f64; 2]> {
-    estimate.and_then(|estimate| estimate.interval)
-}
-
 /// Whether the paper's sentences about several robots are judged of this team.
 fn is_judged(line: &&Line) -> bool {
     ["published", "repaired", "wanders"].contains(&line.rule.as_str()) && [2, BEST].contains(&line.robots)

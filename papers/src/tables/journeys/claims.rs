@@ -75,7 +75,7 @@ impl Claim {
 
     /// The verdict by the interval of TAN's RD less the rival's.
     pub fn verdict(self, difference: Option<Estimate>) -> Verdict {
-        let Some([low, high]) = difference.and_then(|difference| difference.interval) else {
+        let Some([low, high]) = ends(difference) else {
             return Verdict::Open;
         };
         let (holds, fails) = match self {

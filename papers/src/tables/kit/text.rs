@@ -34,7 +34,7 @@ pub(super) fn directions(lines: &[Line]) -> impl Iterator<Item = Judgement> + '_
         let is_two =
             |line: &&Line| (line.family, line.team.rule, line.team.robots) == (one.family, one.team.rule, 2);
         let two = lines.iter().find(is_two)?;
-        let [of_one, of_two] = [one, two].map(|line| line.directions.and_then(|all| all.interval));
+        let [of_one, of_two] = [one, two].map(|line| ends(line.directions));
         Some(Judgement::new(
             "“MAS has explored more direction at nodes than the single robot”",
             format!("{}, {}", one.team.rule.word(), one.family),
@@ -50,7 +50,7 @@ pub(super) fn sooner(races: &[Race]) -> impl Iterator<Item = Judgement> + '_ {
         race.team.rule != TeamRule::Repaired && (race.other.rule, race.other.robots) == (race.team.rule, 1)
     };
     races.iter().filter(is_said).map(|race| {
-        let [ahead, behind] = [race.ahead, race.behind].map(|share| share.and_then(|share| share.interval));
+        let [ahead, behind] = [race.ahead, race.behind].map(ends);
         Judgement::new(
             "“MAS is taking less time to explore and cover the area”",
             format!("{}, {}", race.team.rule.word(), race.family),
@@ -71,8 +71,7 @@ pub(super) fn talking(figure: Figure, silence: &[Contest]) -> impl Iterator<Item
         Figure::Overlap => "88 % of the paths",
     };
     silence.iter().map(move |contest| {
-        let [ahead, behind] =
-            [contest.ahead, contest.behind].map(|share| share.and_then(|share| share.interval));
+        let [ahead, behind] = [contest.ahead, contest.behind].map(ends);
         let [talking, silent] = [contest.ahead, contest.behind].map(|share| text(share, 1));
         let sentence =
             "“Communication between agents benefits increase of the performance” (2): two sooner with it";

@@ -70,7 +70,7 @@ impl Race {
 
     /// Whether the first is sooner: in the mean if both get there on every layout, or else more often than not.
     pub(super) fn is_won(self) -> Verdict {
-        match self.difference.and_then(|difference| difference.interval) {
+        match ends(self.difference) {
             Some([low, high]) => Verdict::decided(high < 0.0, low > 0.0),
             None => is_most(self.sooner, self.later),
         }
@@ -83,7 +83,7 @@ impl Race {
 
     /// Whether both are alike.
     pub(super) fn is_alike(self) -> Verdict {
-        alike(1.0, self.ratio.and_then(|ratio| ratio.interval))
+        alike(1.0, ends(self.ratio))
     }
 
     pub(super) fn text(self) -> String {
