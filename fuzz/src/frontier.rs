@@ -1,7 +1,7 @@
 //! Robots that explore cells, in any order of their steps, with obstacles and lost messages by the bytes.
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Map, Rule, TinyMap};
+use tautline_kernel::frontier::{Map, Rule, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell};
 use tautline_proofs::engine::world::play;
 use tautline_proofs::engine::{Stop, Tape};
@@ -35,7 +35,7 @@ fn follow<const ROBOTS: usize>(bytes: &mut Tape<'_>) {
     let mut given = TinyMap::new(area).expect("at most 64 cells");
     for cell in area.cells().filter(|cell| !starts.contains(cell)) {
         if (192..256).contains(&bytes.pick(256)) {
-            given.block(cell);
+            given.learn(cell, Status::Obstacle);
         }
     }
     let setting = Setting { given: Some(given), max_losses: bytes.pick(4) as u8, ..setting };

@@ -47,15 +47,16 @@ fn teams() -> impl Strategy<Value = Team> {
         let mut map = blank();
         for (number, status) in statuses.into_iter().enumerate() {
             match status {
-                0..16 => map.explore(cell(number)),
-                16..19 => map.block(cell(number)),
+                0..16 => map.learn(cell(number), Status::Explored),
+                16..19 => map.learn(cell(number), Status::Obstacle),
+                19 => map.learn(cell(number), Status::Body),
                 _ => {}
             }
         }
         let mut placed: BTreeMap<usize, Option<Cell>> = BTreeMap::new();
         for (number, aim) in robots {
             placed.insert(number, aim.map(cell));
-            map.explore(cell(number));
+            map.learn(cell(number), Status::Explored);
         }
         Team { map, robots: placed.into_iter().map(|(number, aim)| (cell(number), aim)).collect() }
     })
@@ -96,7 +97,10 @@ fn next_within(team: &Team, robot: usize, rule: &Rule, pick: u32, pairs: usize) 
 /// An area that is explored but for these cells.
 fn explored_but(unexplored: &[(i16, i16)]) -> TinyMap {
     let mut map = blank();
-    area().cells().filter(|&cell| !unexplored.contains(&cell.into())).for_each(|cell| map.explore(cell));
+    area()
+        .cells()
+        .filter(|&cell| !unexplored.contains(&cell.into()))
+        .for_each(|cell| map.learn(cell, Status::Explored));
     map
 }
 
@@ -192,6 +196,30 @@ fn a_robot_goes_round_a_small_obstacle_with_its_claim_and_stores_it_only_without
 }
 
 #[test]
+fn a_robot_that_answers_nothing_closes_its_cell_for_good_and_without_bypass_is_waited_for() {
+    let (here, east) = (Cell::new(3, 3), Cell::new(4, 3));
+    let met = |rule: Rule, sight: Sight| {
+        let mut robot = Robot::new(blank(), here, &[here, east]);
+        robot.tries(Side::East, Cell::new(5, 3));
+        robot.looked(&rule, sight);
+        // Nobody opens it again.
+        robot.hears(east, Status::Explored);
+        (robot.stance(), robot.aim(), robot.waits(), robot.is_bound(&rule), robot.map.status(east))
+    };
+    assert_eq!(met(Rule::REPAIRED, Sight::Silent), (Stance::Stands, None, false, false, Status::Body));
+    let waits = (Stance::Stands, None, true, true, Status::Explored);
+    assert_eq!(met(Rule::REPAIRED, Sight::Robot), waits);
+    assert_eq!(met(Rule::REPAIRED.without(Condition::Bypass), Sight::Silent), waits);
+    let literal = Rule::REPAIRED.without(Condition::Record);
+    assert_eq!(met(literal, Sight::Silent), (Stance::Stands, None, false, true, Status::Explored));
+    let sees = Rule::REPAIRED.without(Condition::Bypass).without(Condition::Tell);
+    let mut robot = Robot::new(blank(), here, &[]);
+    robot.tries(Side::East, east);
+    robot.looked(&sees, Sight::Silent);
+    assert_eq!(robot.map.status(east), Status::Obstacle, "for whoever sees robots as obstacles it is one");
+}
+
+#[test]
 fn a_robot_turns_back_from_a_cell_that_it_took_for_unexplored_and_only_from_that() {
     let (here, east, north) = (Cell::new(3, 3), Cell::new(4, 3), Cell::new(3, 2));
     let looked = |rule: Rule, aim: Cell, sight: Sight| {
@@ -226,7 +254,7 @@ fn with_less_memory_fewer_cells_are_compared_and_still_all_robots() {
 fn a_robot_between_obstacles_has_nothing_to_pick_from() {
     let mut map = blank();
     for side in Side::ALL {
-        map.block(Cell::new(3, 3).beyond(side));
+        map.learn(Cell::new(3, 3).beyond(side), Status::Obstacle);
     }
     for rule in [Rule::PUBLISHED, Rule::WANDERS] {
         assert_eq!(next(&team(map, [(3, 3)]), 0, &rule, 0), Next::Stops);
@@ -241,7 +269,8 @@ fn ways(map: &TinyMap, from: Cell) -> BTreeMap<Cell, u32> {
             continue;
         }
         for beside in Side::ALL.map(|side| cell.beyond(side)) {
-            if map.status(beside) != Status::Obstacle && !ways.contains_key(&beside) {
+            let is_barred = matches!(map.status(beside), Status::Obstacle | Status::Body);
+            if !is_barred && !ways.contains_key(&beside) {
                 ways.insert(beside, ways[&cell] + 1);
                 queue.push_back(beside);
             }
@@ -296,11 +325,7 @@ fn sides(team: &Team, robot: usize, rule: &Rule) -> BTreeSet<Cell> {
 fn moved(team: &Team, turn: fn(Cell) -> Cell) -> Team {
     let mut map = blank();
     for cell in area().cells() {
-        match team.map.status(cell) {
-            Status::Explored => map.explore(turn(cell)),
-            Status::Obstacle => map.block(turn(cell)),
-            Status::Unexplored => {}
-        }
+        map.learn(turn(cell), team.map.status(cell));
     }
     let robots = team.robots.iter().map(|&(at, aim)| (turn(at), aim.map(turn)));
     Team { map, robots: robots.collect() }
@@ -339,7 +364,7 @@ proptest! {
     fn a_plain_robot_may_begin_with_any_shortest_way_to_a_nearest_cell(team in teams()) {
         let at = team.robots[0].0;
         let distance = |cell: Cell| match team.map.status(cell) {
-            Status::Obstacle => None,
+            Status::Obstacle | Status::Body => None,
             Status::Unexplored | Status::Explored => ways(&team.map, cell).into_values().min(),
         };
         let beside = Side::ALL.map(|side| at.beyond(side));
@@ -390,8 +415,8 @@ proptest! {
 fn a_small_map_counts_the_cells_that_a_search_may_still_find() {
     let mut map = explored_but(&[(0, 0), (3, 3), (6, 6)]);
     assert_eq!(map.frontier(), 3);
-    map.block(Cell::new(3, 3));
-    map.block(Cell::new(1, 1));
+    map.learn(Cell::new(3, 3), Status::Obstacle);
+    map.learn(Cell::new(1, 1), Status::Obstacle);
     assert_eq!(map.frontier(), 2);
     assert_eq!(blank().frontier(), 49);
 }

@@ -187,7 +187,7 @@ fn an_agent_that_finds_a_sensor_where_it_missed_one_goes_back() {
 }
 
 #[test]
-fn two_maps_joined_know_what_either_knows_and_no_explored_cell_is_an_obstacle() {
+fn two_maps_joined_know_the_greater_status_of_each_cell() {
     let area = Area::new(Cell::new(-3, 2), Cell::new(4, 8)).expect("an area");
     let cells: Vec<Cell> = (1..10).flat_map(|y| (-4..6).map(move |x| Cell::new(x, y))).collect();
     let mut drawn = Congruence(5);
@@ -196,16 +196,11 @@ fn two_maps_joined_know_what_either_knows_and_no_explored_cell_is_an_obstacle() 
         let mut told: [BTreeMap<Cell, Status>; 2] = [const { BTreeMap::new() }; 2];
         for _ in 0..drawn.pick(60) {
             let (which, cell) = (drawn.pick(2) as usize, cells[drawn.pick(cells.len() as u32) as usize]);
-            let is_explored = drawn.pick(2) == 0;
-            if is_explored {
-                maps[which].explore(cell);
-            } else {
-                maps[which].block(cell);
-            }
-            let known = told[which].entry(cell).or_insert(Status::Obstacle);
-            if is_explored {
-                *known = Status::Explored;
-            }
+            let status = [Status::Obstacle, Status::Explored, Status::Body, Status::Unexplored]
+                [drawn.pick(4) as usize];
+            maps[which].learn(cell, status);
+            let known = told[which].entry(cell).or_insert(status);
+            *known = (*known).max(status);
         }
         let mut joined = maps[0];
         joined.join(&maps[1]);
@@ -213,11 +208,7 @@ fn two_maps_joined_know_what_either_knows_and_no_explored_cell_is_an_obstacle() 
         for &cell in &cells {
             let [one, other] =
                 [0, 1].map(|which| told[which].get(&cell).copied().unwrap_or(Status::Unexplored));
-            let both = match (one, other) {
-                (Status::Explored, _) | (_, Status::Explored) => Status::Explored,
-                (Status::Obstacle, _) | (_, Status::Obstacle) => Status::Obstacle,
-                _ => Status::Unexplored,
-            };
+            let both = one.max(other);
             // Outside the area nothing is to be found.
             let seen = |status| if area.contains(cell) { status } else { Status::Obstacle };
             assert_eq!((maps[0].status(cell), joined.status(cell)), (seen(one), seen(both)), "{cell}");

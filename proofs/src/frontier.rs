@@ -29,7 +29,7 @@ pub fn has_more(map: &impl Map, cell: Cell) -> bool {
                     reached[row * area.width() + column] = true;
                     rim.push(next);
                 }
-                (Status::Explored | Status::Obstacle, _) => {}
+                (Status::Explored | Status::Obstacle | Status::Body, _) => {}
             }
         }
     }

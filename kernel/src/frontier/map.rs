@@ -2,16 +2,19 @@
 
 use crate::ground::{Area, Cell, Side};
 
-/// A robot's knowledge of a cell.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+/// A robot's knowledge of a cell. What is greater counts for more: where a robot was there is no obstacle, and a body
+/// stays.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Status {
     /// Nothing: status 0.
     Unexplored,
-    /// A robot was there: status 1.
-    Explored,
     /// It cannot be entered.
     Obstacle,
+    /// A robot was there: status 1.
+    Explored,
+    /// A dead robot is in it, or between it and the next one: it cannot be entered any more.
+    Body,
 }
 
 /// A repository.
@@ -27,17 +30,14 @@ pub trait Map {
         usize::MAX
     }
 
-    /// Notes that `cell` is explored, whatever was known of it; no effect outside the area.
-    fn explore(&mut self, cell: Cell);
-
-    /// Notes that `cell` is an obstacle, unless it is known to be explored; no effect outside the area.
-    fn block(&mut self, cell: Cell);
+    /// Notes that `cell` has this status, unless it has a greater one; no effect outside the area.
+    fn learn(&mut self, cell: Cell, status: Status);
 }
 
 /// The sides of a cell in the order of the numbers of the cells beyond them.
 pub(super) const BY_NUMBER: [Side; 4] = [Side::North, Side::West, Side::East, Side::South];
 
-/// A repository of at most 64 cells, in two machine words.
+/// A repository of at most 64 cells, in two machine words: a cell that is in both has a body in it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TinyMap {
@@ -58,8 +58,9 @@ impl TinyMap {
 
     /// Joins what `other` knows of the same area.
     pub const fn join(&mut self, other: &Self) {
+        let bodies = self.explored & self.obstacles | other.explored & other.obstacles;
         self.explored |= other.explored;
-        self.obstacles = (self.obstacles | other.obstacles) & !self.explored;
+        self.obstacles = (self.obstacles | other.obstacles) & !self.explored | bodies;
     }
 
     /// Whether it knows nothing that is not so in `truth`, which is of the same area.
@@ -69,7 +70,7 @@ impl TinyMap {
 
     /// How many cells are known to be obstacles.
     pub const fn obstacles(&self) -> u32 {
-        self.obstacles.count_ones()
+        (self.obstacles & !self.explored).count_ones()
     }
 
     /// The bit of a cell, by its number; none outside the area.
@@ -93,7 +94,8 @@ impl Map for TinyMap {
         match (self.explored & bit, self.obstacles & bit) {
             (0, 0) if bit != 0 => Status::Unexplored,
             (0, _) => Status::Obstacle,
-            _ => Status::Explored,
+            (_, 0) => Status::Explored,
+            _ => Status::Body,
         }
     }
 
@@ -101,12 +103,11 @@ impl Map for TinyMap {
         self.area.width() * self.area.height() - (self.explored | self.obstacles).count_ones() as usize
     }
 
-    fn explore(&mut self, cell: Cell) {
-        self.explored |= self.bit(cell);
-        self.obstacles &= !self.explored;
-    }
-
-    fn block(&mut self, cell: Cell) {
-        self.obstacles |= self.bit(cell) & !self.explored;
+    fn learn(&mut self, cell: Cell, status: Status) {
+        if self.status(cell) < status {
+            let bit = self.bit(cell);
+            self.explored |= if status == Status::Obstacle { 0 } else { bit };
+            self.obstacles = self.obstacles & !bit | if status == Status::Explored { 0 } else { bit };
+        }
     }
 }

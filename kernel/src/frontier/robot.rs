@@ -35,6 +35,8 @@ pub enum Sight {
     Small,
     /// Another robot, in the cell or entering it.
     Robot,
+    /// One that answers nothing.
+    Silent,
 }
 
 /// A robot's next action.
@@ -110,7 +112,7 @@ impl<M: Map> Robot<M> {
     /// A robot in its start, all of which are explored; it knows nothing else of `map`.
     pub fn new(mut map: M, start: Cell, starts: &[Cell]) -> Self {
         for &cell in starts.iter().chain([&start]) {
-            map.explore(cell);
+            map.learn(cell, Status::Explored);
         }
         let stance = Stance::Stands;
         Self { map, at: start, stance, aim: None, waits: false, has_news: true, threshold: None }
@@ -123,10 +125,7 @@ impl<M: Map> Robot<M> {
 
     /// The cell that it is entering by its count, or that it is in.
     pub const fn entering(&self) -> Cell {
-        match self.stance {
-            Stance::Enters(side) => self.at.beyond(side),
-            Stance::Stands | Stance::Tries(_) => self.at,
-        }
+        if let Stance::Enters(side) = self.stance { self.at.beyond(side) } else { self.at }
     }
 
     /// Whether it stands, looks beyond a side of its cell, or enters the next one.
@@ -241,7 +240,7 @@ impl<M: Map> Robot<M> {
         let ways = BY_NUMBER.map(|side| {
             let cell = self.at.beyond(side);
             match self.map.status(cell) {
-                Status::Obstacle => None,
+                Status::Obstacle | Status::Body => None,
                 Status::Unexplored => Some(Target { cell, distance: 1, first: side }),
                 Status::Explored => {
                     let mut way = None;
@@ -273,16 +272,18 @@ impl<M: Map> Robot<M> {
         self.has_news = sight == Sight::Open && (returns || !is_explored) || !rule.has(Condition::Keep);
         let enters = sight == Sight::Open && !returns;
         self.stance = if enters { Stance::Enters(side) } else { Stance::Stands };
-        self.waits = sight == Sight::Robot && rule.has(Condition::Turn);
-        let is_obstacle = match sight {
+        let is_dead = sight == Sight::Silent && rule.has(Condition::Bypass);
+        self.waits = matches!(sight, Sight::Robot | Sight::Silent) && !is_dead && rule.has(Condition::Turn);
+        let status = match sight {
             Sight::Open if enters => return,
             Sight::Small if rule.has(Condition::Detour) => return,
-            Sight::Open => false,
-            Sight::Obstacle | Sight::Small => true,
-            Sight::Robot => !rule.has(Condition::Tell),
+            Sight::Silent if is_dead => Status::Body,
+            Sight::Robot | Sight::Silent if rule.has(Condition::Tell) => Status::Unexplored,
+            Sight::Open => Status::Unexplored,
+            Sight::Obstacle | Sight::Small | Sight::Robot | Sight::Silent => Status::Obstacle,
         };
-        if is_obstacle && rule.has(Condition::Record) {
-            self.hears(cell, Status::Obstacle);
+        if rule.has(Condition::Record) {
+            self.hears(cell, status);
         }
         self.aim = None;
     }
@@ -299,11 +300,7 @@ impl<M: Map> Robot<M> {
     /// It hears that `cell` has this status.
     pub fn hears(&mut self, cell: Cell, status: Status) {
         let before = self.map.status(cell);
-        match status {
-            Status::Unexplored => {}
-            Status::Explored => self.map.explore(cell),
-            Status::Obstacle => self.map.block(cell),
-        }
+        self.map.learn(cell, status);
         self.has_news |= self.map.status(cell) != before;
     }
 }

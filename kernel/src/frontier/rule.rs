@@ -58,6 +58,8 @@ conditions! {
         /// Repair: a robot at the rim of a cell that it took for unexplored, and that its map has for explored by then,
         /// turns back: another one has been there.
         Return,
+        /// Repair: a robot that answers nothing is dead, and its cell is closed to the others for good.
+        Bypass,
     }
 }
 

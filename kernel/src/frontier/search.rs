@@ -81,7 +81,7 @@ pub(super) fn search<M: Map>(
             let reached = area.place(cell).and_then(|place| memory.reached.get_mut(place));
             let Some(reached) = reached.filter(|reached| reached.round != round) else { continue };
             let status = map.status(cell);
-            if status == Status::Obstacle {
+            if matches!(status, Status::Obstacle | Status::Body) {
                 continue;
             }
             let first = if at.distance == 0 { side } else { at.first };
@@ -133,12 +133,8 @@ mod tests {
             self.frontier
         }
 
-        fn explore(&mut self, cell: Cell) {
-            self.map.explore(cell);
-        }
-
-        fn block(&mut self, cell: Cell) {
-            self.map.block(cell);
+        fn learn(&mut self, cell: Cell, status: Status) {
+            self.map.learn(cell, status);
         }
     }
 
@@ -147,7 +143,7 @@ mod tests {
         let area = Area::new(Cell::new(0, 0), Cell::new(7, 0)).expect("an area");
         let mut map = TinyMap::new(area).expect("8 cells");
         for x in [1, 2, 3, 4, 5, 7] {
-            map.explore(Cell::new(x, 0));
+            map.learn(Cell::new(x, 0), Status::Explored);
         }
         CountingMap { map, frontier: usize::MAX, times: Counter::new(0) }
     }

@@ -31,6 +31,7 @@ pub(super) struct Areas<const ROBOTS: usize> {
     pub(super) max_losses: u8,
     pub(super) max_wrong: u8,
     pub(super) max_small: u8,
+    pub(super) max_deaths: u8,
     pub(super) demand: Demand,
     /// The situations that must occur.
     pub(super) covers: &'static [&'static str],
@@ -48,9 +49,9 @@ pub struct Counterexample<const ROBOTS: usize> {
 /// The teams of `rule` in one area.
 pub fn setting<const ROBOTS: usize>(rule: Rule, (width, height): Size) -> Option<Setting<ROBOTS>> {
     let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1))?;
-    let (max_obstacles, max_losses, max_wrong, max_small) = (TinyMap::CELLS as u8, 0, 0, 0);
+    let (max_obstacles, max_losses, max_wrong, max_small, max_deaths) = (TinyMap::CELLS as u8, 0, 0, 0, 0);
     let (demand, given) = (None, None);
-    Some(Setting { rule, area, max_obstacles, max_losses, max_wrong, max_small, demand, given })
+    Some(Setting { rule, area, max_obstacles, max_losses, max_wrong, max_small, max_deaths, demand, given })
 }
 
 /// The run with the fewest obstacles that breaks what `run` breaks in the area of `setting`. It breaks off where
@@ -105,9 +106,10 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
     }
 
     /// The choices that make the run in an area that has the obstacles that it met: the first two say how many messages
-    /// are lost and how many fixes are wrong at most. Obstacles that are smaller than a cell are in no layout.
+    /// are lost and how many fixes are wrong at most. Obstacles that are smaller than a cell are in no layout, nor are
+    /// deaths.
     pub fn scripted(&self) -> Option<ScriptedRun> {
-        if self.setting.max_small > 0 {
+        if self.setting.max_small > 0 || self.setting.max_deaths > 0 {
             return None;
         }
         let (start, ..) = self.steps()?;
@@ -199,9 +201,12 @@ fn written(event: &Event) -> Option<judge::Step> {
         Event::Looks(robot, _, Sight::Open, ..) => (robot, judge::What::Enters, None, None),
         Event::Looks(robot, _, Sight::Obstacle, 0, _) => (robot, judge::What::IsBarred, None, None),
         Event::Arrives(robot, fix, 0) => (robot, judge::What::Arrives, None, Some(place(fix))),
-        Event::Decides(..) | Event::Looks(..) | Event::Returns(..) | Event::Arrives(..) | Event::Ticks => {
-            return None;
-        }
+        Event::Decides(..)
+        | Event::Looks(..)
+        | Event::Returns(..)
+        | Event::Arrives(..)
+        | Event::Ticks
+        | Event::Dies(_) => return None,
     };
     Some(judge::Step { robot, what, side, fix })
 }
@@ -225,6 +230,7 @@ pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
                     format!("R{name} meets an obstacle smaller than a cell in the {side}{}", missed(lost))
                 }
                 Sight::Robot => format!("R{name} meets a robot in the {side}{}", missed(lost)),
+                Sight::Silent => format!("R{name} meets a dead robot in the {side}{}", missed(lost)),
             })
         }
         Event::Returns(robot, side) => {
@@ -236,14 +242,15 @@ pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
             Some(format!("R{} arrives in {cell}{fixed}{}", robot + 1, missed(lost)))
         }
         Event::Ticks => Some("the slot is over".to_owned()),
+        Event::Dies(robot) => Some(format!("R{} dies", robot + 1)),
     }
 }
 
 impl<const ROBOTS: usize> Areas<ROBOTS> {
     fn setting(&self, rule: &Rule, size: Size) -> Result<Setting<ROBOTS>, MethodError> {
-        let Self { max_losses, max_wrong, max_small, demand, .. } = *self;
+        let Self { max_losses, max_wrong, max_small, max_deaths, demand, .. } = *self;
         let setting = setting(*rule, size).ok_or_else(|| MethodError::new("the area is too large"))?;
-        Ok(Setting { max_losses, max_wrong, max_small, demand: Some(demand), ..setting })
+        Ok(Setting { max_losses, max_wrong, max_small, max_deaths, demand: Some(demand), ..setting })
     }
 
     /// Looks at these areas in their order, until this is broken, or anything where no demand is named: what is found,
@@ -290,13 +297,19 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
             0 => String::new(),
             small => format!(", at most {} smaller than a cell", counted(small, "obstacle")),
         };
+        let deaths = match self.max_deaths {
+            0 => String::new(),
+            deaths => format!(", {deaths} of whom may die at any step"),
+        };
         let robots = counted(ROBOTS as u64, "robot");
-        format!("all obstacles in {sizes} cells, all starts, {robots}, every order{lost}{wrong}{small}")
+        format!(
+            "all obstacles in {sizes} cells, all starts, {robots}{deaths}, every order{lost}{wrong}{small}"
+        )
     }
 
     fn family(&self, rule: &Rule) -> Option<String> {
-        let Self { sizes, max_losses, max_wrong, max_small, .. } = self;
-        Some(format!("{ROBOTS} {sizes:?} {max_losses} {max_wrong} {max_small} {rule:?}"))
+        let Self { sizes, max_losses, max_wrong, max_small, max_deaths, .. } = self;
+        Some(format!("{ROBOTS} {sizes:?} {max_losses} {max_wrong} {max_small} {max_deaths} {rule:?}"))
     }
 
     /// One search answers the checks of all demands, if it finds none of them broken. Else each demand has its own
@@ -310,7 +323,8 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
             Answer::new(evidence, found.is_whole && is_covered, Method::<Rule>::shows(self), found.states)
         };
         if until == Until::Exhausted {
-            let asked = (ROBOTS, self.sizes, self.max_losses, self.max_wrong, self.max_small, *rule);
+            let Self { sizes, max_losses, max_wrong, max_small, max_deaths, .. } = *self;
+            let asked = (ROBOTS, sizes, max_losses, max_wrong, max_small, max_deaths, *rule);
             let (found, _) = context.cache.recall(asked, |_| self.look(rule, None, limits))?;
             if found.broken.is_empty() {
                 return Ok(answer(found, None));
@@ -372,8 +386,8 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
 impl<const ROBOTS: usize> Areas<ROBOTS> {
     /// This demand on so many robots.
     const fn of<const OTHERS: usize>(other: &Areas<OTHERS>) -> Self {
-        let Areas { sizes, max_losses, max_wrong, max_small, demand, covers } = *other;
-        Self { sizes, max_losses, max_wrong, max_small, demand, covers }
+        let Areas { sizes, max_losses, max_wrong, max_small, max_deaths, demand, covers } = *other;
+        Self { sizes, max_losses, max_wrong, max_small, max_deaths, demand, covers }
     }
 
     /// The shortest run in a class that breaks the demand.

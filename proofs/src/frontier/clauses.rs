@@ -1,8 +1,8 @@
 //! The clauses of frontier cells, in the order of `SPEC.md`.
 
 use tautline_kernel::frontier::Condition::{
-    self, Claim, Corner, Detour, Fuse, Gate, Keep, Lapse, Look, Nearer, Record, Return, Route, Share, Sure,
-    Tell, Track, Turn,
+    self, Bypass, Claim, Corner, Detour, Fuse, Gate, Keep, Lapse, Look, Nearer, Record, Return, Route, Share,
+    Sure, Tell, Track, Turn,
 };
 use tautline_kernel::frontier::{Basis, Occupancy, Rule};
 
@@ -31,6 +31,9 @@ const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
 /// Both among obstacles smaller than a cell, which no theorem of Rocq speaks of.
 const PLAIN_SMALL: NamedRule<Rule> = NamedRule::new("plain-S", Rule::PLAIN);
 const REPAIRED_SMALL: NamedRule<Rule> = NamedRule::new("repaired-S", Rule::REPAIRED);
+/// Both where a robot dies, of which no theorem speaks either.
+const PLAIN_DEATH: NamedRule<Rule> = NamedRule::new("plain-D", Rule::PLAIN);
+const REPAIRED_DEATH: NamedRule<Rule> = NamedRule::new("repaired-D", Rule::REPAIRED);
 
 /// Robots that wander, whose threshold is the mean of the probabilities of all cells, and of the neighbours alone.
 const ALL_CELLS: NamedRule<Rule> = NamedRule::new("wanders-T", Rule { basis: Basis::Cells, ..Rule::WANDERS });
@@ -83,6 +86,7 @@ const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
         Lapse => "stale claims",
         Keep => "farther cells without news",
         Return => "nobody turns back",
+        Bypass => "a dead robot is a robot",
     };
     NamedRule::new(name, rule.without(condition))
 }
@@ -117,7 +121,7 @@ const ALONE: [&str; 4] = ["a decision", "an open cell", "an obstacle", "an arriv
 const ALL: [&str; 6] = ["a decision", "an open cell", "an obstacle", "a robot", "an arrival", "a slot"];
 
 const fn smallest<const ROBOTS: usize>(demand: Demand) -> Areas<ROBOTS> {
-    Areas { sizes: &SMALLEST, max_losses: 0, max_wrong: 0, max_small: 0, demand, covers: &[] }
+    Areas { sizes: &SMALLEST, max_losses: 0, max_wrong: 0, max_small: 0, max_deaths: 0, demand, covers: &[] }
 }
 
 const fn one(demand: Demand) -> Areas<1> {
@@ -145,6 +149,11 @@ const fn lossy<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
 /// These areas with an obstacle that is smaller than a cell.
 const fn small<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
     Areas { max_small: 1, covers: &["a small obstacle", "an arrival"], ..areas }
+}
+
+/// These areas for a team of whom a robot may die.
+const fn deadly<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
+    Areas { max_deaths: 1, covers: &["a body", "an arrival"], ..areas }
 }
 
 const fn two_repaired(demand: Demand) -> Areas<2> {
@@ -234,6 +243,10 @@ pub const CLAUSES: [Clause; 13] = [
             &Check::holds(REPAIRED, &lossy(three(Demand::Covers)), &[repaired(Route)]),
             &Check::holds(PLAIN_SMALL, &small(one(Demand::Covers)), &[plain(Detour)]),
             &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Covers)), &[repaired(Detour)]),
+            &Check::holds(PLAIN_DEATH, &deadly(two(Demand::Covers)), &[plain(Route)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(two_repaired(Demand::Covers)), &[repaired(Route)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(three(Demand::Covers)), &[repaired(Route)]),
+            &Check::holds(REPAIRED_DEATH, &lossy(deadly(two(Demand::Covers))), &[repaired(Route)]),
         ],
     },
     Clause {
@@ -249,6 +262,10 @@ pub const CLAUSES: [Clause; 13] = [
             &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Alone)), &[repaired(Look)]),
             &Check::holds(REPAIRED, &lossy(three(Demand::Alone)), &[repaired(Look)]),
             &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Alone)), &[repaired(Look)]),
+            &Check::holds(PLAIN_DEATH, &deadly(two(Demand::Alone)), &[plain(Look)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(two_repaired(Demand::Alone)), &[repaired(Look)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(three(Demand::Alone)), &[repaired(Look)]),
+            &Check::holds(REPAIRED_DEATH, &lossy(deadly(two(Demand::Alone))), &[repaired(Look)]),
             &Check::holds(alone(PLAIN), &EveryNumber::DEFAULT, &[alone(plain(Look))]),
             &Check::holds(alone(REPAIRED), &EveryNumber::DEFAULT, &[alone(repaired(Look))]),
         ],
@@ -277,6 +294,10 @@ pub const CLAUSES: [Clause; 13] = [
             &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Ends)), &[repaired(Share)]),
             &Check::holds(REPAIRED, &lossy(three(Demand::Ends)), &[repaired(Share)]),
             &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Ends)), &[repaired(Turn)]),
+            &Check::holds(PLAIN_DEATH, &deadly(two(Demand::Ends)), &[plain(Bypass)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(two_repaired(Demand::Ends)), &[repaired(Bypass)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(three(Demand::Ends)), &[repaired(Bypass)]),
+            &Check::holds(REPAIRED_DEATH, &lossy(deadly(two(Demand::Ends))), &[repaired(Bypass)]),
         ],
     },
     Clause {
@@ -294,6 +315,10 @@ pub const CLAUSES: [Clause; 13] = [
             &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Knows)), &[repaired(Lapse)]),
             &Check::holds(REPAIRED, &lossy(three(Demand::Knows)), &[repaired(Lapse)]),
             &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Knows)), &[repaired(Route)]),
+            &Check::holds(PLAIN_DEATH, &deadly(two(Demand::Knows)), &[plain(Route)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(two_repaired(Demand::Knows)), &[repaired(Route)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(three(Demand::Knows)), &[repaired(Route)]),
+            &Check::holds(REPAIRED_DEATH, &lossy(deadly(two(Demand::Knows))), &[repaired(Route)]),
         ],
     },
     Clause {
@@ -337,6 +362,10 @@ pub const CLAUSES: [Clause; 13] = [
             &Check::holds(REPAIRED, &lossy(three(Demand::Marks)), &[repaired(Tell)]),
             &Check::holds(PLAIN_SMALL, &small(one(Demand::Marks)), &[plain(Detour)]),
             &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Marks)), &[repaired(Detour)]),
+            &Check::holds(PLAIN_DEATH, &deadly(two(Demand::Marks)), &[plain(Tell)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(two_repaired(Demand::Marks)), &[repaired(Tell)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(three(Demand::Marks)), &[repaired(Tell)]),
+            &Check::holds(REPAIRED_DEATH, &lossy(deadly(two(Demand::Marks))), &[repaired(Tell)]),
         ],
     },
     Clause {
@@ -445,6 +474,10 @@ pub const CLAUSES: [Clause; 13] = [
             &Check::holds(REPAIRED, &turned_back(three(Demand::Once)), &[repaired(Return), repaired(Look)]),
             &Check::holds(REPAIRED, &lossy(turned_back(two_repaired(Demand::Once))), &[repaired(Return)]),
             &Check::holds(REPAIRED, &lossy(turned_back(three(Demand::Once))), &[repaired(Return)]),
+            &Check::holds(PLAIN_DEATH, &deadly(two(Demand::Once)), &[plain(Look)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(two_repaired(Demand::Once)), &[repaired(Look)]),
+            &Check::holds(REPAIRED_DEATH, &deadly(three(Demand::Once)), &[repaired(Look)]),
+            &Check::holds(REPAIRED_DEATH, &lossy(deadly(two(Demand::Once))), &[repaired(Look)]),
         ],
     },
 ];

@@ -63,7 +63,7 @@ impl Drift {
             for cell in area.cells() {
                 let place = Place::midpoint(cell);
                 let mut truth = map;
-                truth.explore(cell);
+                truth.learn(cell, Status::Explored);
                 // The start is known; how far from its midpoint the robot is is not.
                 let robot = Robot::new(map, cell, &[cell]);
                 starts.extend(outcomes(|oracle| {
@@ -168,14 +168,14 @@ impl Drift {
             last = cell;
             let is_blocked = match truth.status(cell) {
                 Status::Explored => false,
-                Status::Obstacle => true,
+                Status::Obstacle | Status::Body => true,
                 Status::Unexplored => truth.obstacles() < self.max_obstacles.into() && oracle.mishap(),
             };
             if is_blocked {
-                truth.block(cell);
+                truth.learn(cell, Status::Obstacle);
                 return ControlFlow::Break(());
             }
-            truth.explore(cell);
+            truth.learn(cell, Status::Explored);
         }
         ControlFlow::Continue(())
     }

@@ -48,13 +48,13 @@ pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     let mut map = TinyMap::new(area).ok_or(Stop::Assumed)?;
     for &cell in &cells {
         if places.contains(&cell) {
-            map.explore(cell);
+            map.learn(cell, Status::Explored);
             continue;
         }
         match oracle.pick(3) {
             0 => {}
-            1 => map.explore(cell),
-            _ => map.block(cell),
+            1 => map.learn(cell, Status::Explored),
+            _ => map.learn(cell, Status::Obstacle),
         }
     }
     let left: Vec<Cell> =

@@ -1,6 +1,6 @@
 //! A team in a small area whose obstacles are decided as they are met: which robot acts next, which cell is blocked,
-//! which message is lost, and which fix is wrong, are choices. What the clauses demand is in plain arithmetic here; of
-//! the kernel's rule only what robots do is used.
+//! which message is lost, which fix is wrong, and which robot dies, are choices. What the clauses demand is in plain
+//! arithmetic here; of the kernel's rule only what robots do is used.
 //!
 //! A robot decides by its own repository and by what the others have told it. A message says what its sender knows,
 //! where it takes itself to be, and which cell it has claimed; a robot that misses a message knows none of the three.
@@ -11,6 +11,7 @@
 
 mod demand;
 mod merging;
+mod rim;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
@@ -19,6 +20,8 @@ use tautline_kernel::frontier::{
 use tautline_kernel::ground::{Area, Cell, Side};
 
 pub use self::demand::Demand;
+pub use self::rim::Rim;
+use super::has_more;
 use crate::engine::{Tape, outcomes};
 
 /// The area and what goes on there.
@@ -37,6 +40,8 @@ pub struct Setting<const ROBOTS: usize> {
     /// Most looks in one run that meet an obstacle smaller than a cell. Such an obstacle stands nowhere for good: a
     /// robot that comes again may meet another one.
     pub max_small: u8,
+    /// Most robots that die in one run.
+    pub max_deaths: u8,
     /// The one demand that is looked at; all if there is none.
     pub demand: Option<Demand>,
     /// The obstacles, where they are given: then none is left to choose.
@@ -58,6 +63,8 @@ pub struct World<const ROBOTS: usize> {
     lost: u8,
     wrong: u8,
     small: u8,
+    /// The robots that have died, a bit for each.
+    dead: u8,
     slot: u8,
     /// Robots that were under way when the slot began, a bit for each.
     old: u8,
@@ -80,6 +87,8 @@ pub enum Event {
     Arrives(usize, Cell, u8),
     /// A slot is over.
     Ticks,
+    /// A robot dies, and stands where it is.
+    Dies(usize),
 }
 
 /// A step, with what happens in it.
@@ -131,30 +140,16 @@ impl<const ROBOTS: usize> World<ROBOTS> {
         (0..ROBOTS).filter(|&other| is_there(other)).fold(0, |set, other| set | 1 << other)
     }
 
-    /// The robots that are under way, a bit for each.
+    /// The robots that live.
+    fn living(&self) -> impl Iterator<Item = usize> + use<ROBOTS> {
+        let dead = self.dead;
+        (0..ROBOTS).filter(move |robot| dead >> robot & 1 == 0)
+    }
+
+    /// The living robots that are under way, a bit for each.
     fn moving(&self) -> u8 {
         let moves = |robot: &usize| self.robots[*robot].stance() != Stance::Stands;
-        (0..ROBOTS).filter(moves).fold(0, |set, robot| set | 1 << robot)
-    }
-}
-
-/// Whether a robot at the rim of a cell counts as one that enters it.
-#[derive(Clone, Copy, Debug)]
-pub enum Rim {
-    /// It does.
-    Counts,
-    /// It does not.
-    No,
-}
-
-impl Rim {
-    /// Whether a robot in the cell `at` with this stance is in `cell` or entering it.
-    pub fn is_met(self, cell: Cell, at: Cell, stance: Stance) -> bool {
-        let enters = match (stance, self) {
-            (Stance::Enters(side), _) | (Stance::Tries(side), Self::Counts) => Some(at.beyond(side)),
-            (Stance::Stands | Stance::Tries(_), _) => None,
-        };
-        at == cell || enters == Some(cell)
+        self.living().filter(moves).fold(0, |set, robot| set | 1 << robot)
     }
 }
 
@@ -178,7 +173,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let map = TinyMap::new(self.area)?;
         let mut truth = map;
         for cell in cells {
-            truth.explore(cell);
+            truth.learn(cell, Status::Explored);
         }
         let robots = cells.map(|cell| Robot::new(map, cell, &cells));
         let told = std::array::from_fn(|to| {
@@ -193,6 +188,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             lost: 0,
             wrong: 0,
             small: 0,
+            dead: 0,
             slot: 0,
             old: 0,
             has_tried: false,
@@ -283,7 +279,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// Every step from `world`.
     pub fn turns(&self, world: &World<ROBOTS>) -> Vec<Successor<ROBOTS>> {
         let mut turns: Vec<Successor<ROBOTS>> = Vec::new();
-        for robot in 0..ROBOTS {
+        for robot in world.living() {
             match world.robots[robot].stance() {
                 Stance::Stands => {
                     for way in self.ways(world, robot) {
@@ -303,7 +299,34 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             let after = World { slot, old: world.moving(), has_tried: false, ..*world };
             turns.push(Successor { world: after, event: Event::Ticks, breaks: Vec::new() });
         }
+        if world.dead.count_ones() < self.max_deaths.into() {
+            turns.extend(world.living().map(|robot| self.die(world, robot)));
+        }
         turns
+    }
+
+    /// The death of a robot. What it knew plays no part any more. Its body is in its cell, and in the one that it was
+    /// going to, since others meet it in both.
+    fn die(&self, world: &World<ROBOTS>, robot: usize) -> Successor<ROBOTS> {
+        let mut after = *world;
+        after.dead |= 1 << robot;
+        (after.heading[robot], after.told[robot]) = (false, [None; ROBOTS]);
+        let (at, bare) = (world.cells[robot], self.bare(world, robot));
+        let (mut body, mut to) = (Robot::new(bare.map, bare.at(), &[]), at);
+        if let Stance::Tries(side) | Stance::Enters(side) = bare.stance() {
+            to = at.beyond(side);
+            body.tries(side, at);
+        }
+        if matches!(bare.stance(), Stance::Enters(_)) {
+            body.looked(&self.rule, Sight::Open);
+        }
+        after.robots[robot] = body;
+        for cell in [at, to].into_iter().filter(|&cell| world.truth.status(cell) != Status::Obstacle) {
+            after.truth.learn(cell, Status::Body);
+        }
+        let mut breaks = Vec::new();
+        self.settle(&mut after, &mut breaks);
+        Successor { world: after, event: Event::Dies(robot), breaks }
     }
 
     fn decide(
@@ -342,6 +365,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             _ if world.small < self.max_small && oracle.mishap() => Sight::Small,
             0 if self.is_obstacle(&mut after, cell, oracle) => Sight::Obstacle,
             0 => Sight::Open,
+            _ if met & !world.dead == 0 && self.rule.has(Condition::Bypass) => Sight::Silent,
             _ => Sight::Robot,
         };
         after.robots[robot].looked(&self.rule, sight);
@@ -360,14 +384,14 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 if self.is_wanted(Demand::Alone) && world.inside(robot, cell, Rim::No) != 0 {
                     breaks.push(Demand::Alone);
                 }
-                after.truth.explore(cell);
+                after.truth.learn(cell, Status::Explored);
             }
             Sight::Small if self.rule.has(Condition::Detour) => {}
             Sight::Robot if !self.are_obstacles() => {
                 // Nothing is known of the cell, but that the robot has claimed none any more.
                 missed = self.tell(&mut after, robot, (cell, Status::Unexplored), u8::MAX, oracle);
                 if self.rule.has(Condition::Share) {
-                    for other in (0..ROBOTS).filter(|other| met >> other & 1 == 1) {
+                    for other in world.living().filter(|other| met >> other & 1 == 1) {
                         let to = 1 << robot;
                         missed |= self.tell(&mut after, other, (cell, Status::Unexplored), to, oracle);
                     }
@@ -380,9 +404,10 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                     after.has_tried |= usize::from(world.slot) == robot;
                 }
             }
-            Sight::Obstacle | Sight::Small | Sight::Robot => {
+            Sight::Obstacle | Sight::Small | Sight::Robot | Sight::Silent => {
                 let known = world.robots[robot].at().beyond(side);
-                missed = self.tell(&mut after, robot, (known, Status::Obstacle), u8::MAX, oracle);
+                let status = if sight == Sight::Silent { Status::Body } else { Status::Obstacle };
+                missed = self.tell(&mut after, robot, (known, status), u8::MAX, oracle);
             }
         }
         self.settle(&mut after, &mut breaks);
@@ -402,7 +427,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 None => world.truth.obstacles() < self.max_obstacles.into() && oracle.mishap(),
             };
             if is_blocked {
-                world.truth.block(cell);
+                world.truth.learn(cell, Status::Obstacle);
             }
             return is_blocked;
         }
@@ -446,7 +471,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     ) -> u8 {
         let (map, said) = (world.robots[from].map, says(&world.robots[from]));
         let mut missed = 0;
-        for other in (0..ROBOTS).filter(|&other| other != from && to >> other & 1 == 1) {
+        for other in world.living().filter(|&other| other != from && to >> other & 1 == 1) {
             if world.lost < self.max_losses && oracle.mishap() {
                 world.lost += 1;
                 missed |= 1 << other;
@@ -474,14 +499,14 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         }
     }
 
-    /// Whether a cell beside one that was entered is neither entered nor known to be blocked.
+    /// Whether a robot that lives could get to a cell that is neither entered nor known to be blocked.
     fn is_owed(&self, world: &World<ROBOTS>) -> bool {
-        let is_left = |cell: Cell| match world.truth.status(cell) {
-            Status::Unexplored => !self.is_given(cell),
-            Status::Explored | Status::Obstacle => false,
-        };
-        let entered = self.area.cells().filter(|&cell| world.truth.status(cell) == Status::Explored);
-        entered.flat_map(|cell| Side::ALL.map(|side| cell.beyond(side))).any(is_left)
+        let mut truth = world.truth;
+        self.area
+            .cells()
+            .filter(|&cell| self.is_given(cell))
+            .for_each(|cell| truth.learn(cell, Status::Obstacle));
+        world.living().any(|robot| has_more(&truth, world.cells[robot]))
     }
 }
 

@@ -63,7 +63,7 @@ fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: 
     let obstacles = [drawn(), drawn()];
     let mut given = TinyMap::new(setting.area).expect("a small area");
     for cell in obstacles {
-        given.block(cell);
+        given.learn(cell, Status::Obstacle);
     }
     let setting = Setting { given: Some(given), max_losses: 3, max_wrong: 1, ..setting };
     story(&setting, (starts, &obstacles), met, |_, turns| draw.below(turns.len() as u64) as usize)
@@ -111,7 +111,9 @@ fn step<const ROBOTS: usize>(
             Event::Decides(robot, side, ..) => {
                 Some(format!("({robot},{})", number(world.robots()[robot].at().beyond(side))))
             }
-            Event::Looks(..) | Event::Returns(..) | Event::Arrives(..) | Event::Ticks => None,
+            Event::Looks(..) | Event::Returns(..) | Event::Arrives(..) | Event::Ticks | Event::Dies(_) => {
+                None
+            }
         })
         .collect();
     might.dedup();
@@ -138,7 +140,7 @@ fn place_without_end(rule: Rule) -> (Setting<4>, [Cell; 4]) {
     let setting = setting::<4>(rule, (4, 3)).expect("a small area");
     let cells: Vec<Cell> = setting.area.cells().collect();
     let mut given = TinyMap::new(setting.area).expect("a small area");
-    given.block(cells[0]);
+    given.learn(cells[0], Status::Obstacle);
     (Setting { given: Some(given), max_losses: 24, ..setting }, [9, 10, 5, 2].map(|place| cells[place]))
 }
 
@@ -197,7 +199,7 @@ fn beginning_as<const ROBOTS: usize>(
             Event::Decides(.., missed) | Event::Looks(.., missed, _) | Event::Arrives(.., missed) => {
                 missed == 0
             }
-            Event::Returns(..) | Event::Ticks => true,
+            Event::Returns(..) | Event::Ticks | Event::Dies(_) => true,
         };
         let heard: Vec<usize> = (0..turns.len()).filter(|&place| is_heard(&&turns[place])).collect();
         heard[draw.below(heard.len() as u64) as usize]
@@ -284,6 +286,7 @@ fn event<const ROBOTS: usize>(
             met.slots += 1;
             "Ticks".to_owned()
         }
+        Event::Dies(_) => unreachable!("no robot dies in these runs"),
     }
 }
 

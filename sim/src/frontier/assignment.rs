@@ -56,7 +56,7 @@ impl AssignedTeam {
     pub fn new(assignment: Assignment, layout: &Layout, starts: &[Cell]) -> Self {
         let mut chart = Chart::new(layout.size().area());
         for &start in starts {
-            chart.explore(start);
+            chart.learn(start, Status::Explored);
         }
         let (layout, cells, aims) = (layout.clone(), starts.to_vec(), vec![None; starts.len()]);
         Self { assignment, layout, chart, known: 0, cells, aims, idle: 0 }
@@ -101,7 +101,7 @@ impl AssignedTeam {
             let is_there =
                 |other: usize| other != robot && (self.cells[other] == cell || entering[other] == Some(cell));
             if !self.layout.is_free(cell) {
-                self.chart.block(cell);
+                self.chart.learn(cell, Status::Obstacle);
                 moves.bumps(robot, side);
             } else if (0..self.cells.len()).any(is_there) {
                 self.aims[robot] = None;
@@ -114,7 +114,7 @@ impl AssignedTeam {
         for (robot, cell) in entering.into_iter().enumerate() {
             let Some(cell) = cell else { continue };
             self.cells[robot] = cell;
-            self.chart.explore(cell);
+            self.chart.learn(cell, Status::Explored);
         }
         self.idle = if self.chart.len() == before { self.idle + 1 } else { 0 };
         // Who assigns anew does the same again when nobody has moved.

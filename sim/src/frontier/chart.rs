@@ -67,18 +67,16 @@ impl Chart {
     }
 
     /// Notes what is so of a cell, and counts the frontier anew around it.
-    fn learn(&mut self, cell: Cell, status: Status) {
+    fn note(&mut self, (place, cell): (usize, Cell), status: Status) {
         let around = |chart: &Self| {
             let beside = Side::ALL.map(|side| cell.beyond(side));
             beside.into_iter().chain([cell]).filter(|&cell| chart.is_frontier(cell)).count()
         };
         let before = around(self);
-        if let Some(place) = self.place(cell) {
-            self.has_erred |= self.statuses[place] == Status::Obstacle;
-            self.explored += usize::from(status == Status::Explored);
-            self.statuses[place] = status;
-            self.learned.push((cell, status));
-        }
+        self.has_erred |= self.statuses[place] == Status::Obstacle;
+        self.explored += usize::from(status == Status::Explored);
+        self.statuses[place] = status;
+        self.learned.push((cell, status));
         self.frontier = self.frontier + around(self) - before;
     }
 }
@@ -96,15 +94,9 @@ impl Map for Chart {
         self.frontier
     }
 
-    fn explore(&mut self, cell: Cell) {
-        if self.place(cell).is_some() && self.status(cell) != Status::Explored {
-            self.learn(cell, Status::Explored);
-        }
-    }
-
-    fn block(&mut self, cell: Cell) {
-        if self.status(cell) == Status::Unexplored {
-            self.learn(cell, Status::Obstacle);
+    fn learn(&mut self, cell: Cell, status: Status) {
+        if let Some(place) = self.place(cell).filter(|&place| self.statuses[place] < status) {
+            self.note((place, cell), status);
         }
     }
 }

@@ -201,9 +201,12 @@ impl Explorers {
         self.told_now.iter().map(|(from, deaf)| (*from, deaf))
     }
 
-    /// A robot dies: it stands where it is, and from now on neither goes nor tells anything. The others do not know it.
-    pub const fn dies(&mut self, robot: usize) {
+    /// A robot dies: it stands where it is, and from now on neither goes nor tells anything. The others do not know it
+    /// before they meet it.
+    pub fn dies(&mut self, robot: usize) {
         self.dead = Some(robot);
+        // A body that is met makes ways longer, of which waves that serve all robots know nothing.
+        self.waves = Waves::new(Knowledge::Own, self.robots.len());
     }
 
     /// Makes a team move.
@@ -251,9 +254,9 @@ impl Explorers {
                     entering[robot] = Some(to);
                 }
                 Sight::Small if self.rule.has(Condition::Detour) => self.poses[robot] = to.1,
-                Sight::Obstacle | Sight::Small | Sight::Robot => {
+                Sight::Obstacle | Sight::Small | Sight::Robot | Sight::Silent => {
                     self.poses[robot] = to.1;
-                    if sight != Sight::Robot {
+                    if matches!(sight, Sight::Obstacle | Sight::Small) {
                         moves.bumps(robot, side);
                     }
                     self.note(robot, self.robots[robot].at().beyond(side));
@@ -273,7 +276,7 @@ impl Explorers {
             let Some((cell, pose)) = to else { continue };
             (self.cells[robot], self.poses[robot], self.detours[robot]) = (cell, pose, None);
             self.is_again |= tries[robot] && self.entered.status(cell) == Status::Explored;
-            self.entered.explore(cell);
+            self.entered.learn(cell, Status::Explored);
             if self.radio.is_noisy() {
                 let counted = self.robots[robot].entering();
                 self.radio.takes_fix(&self.rule, &mut self.poses[robot], counted);
@@ -349,10 +352,12 @@ impl Explorers {
         };
         let sight = if !self.is_clear(place_of(from.at), place_of(pose.at)) {
             Sight::Obstacle
-        } else if self.rule.has(Condition::Look) && (0..self.robots.len()).any(is_there) {
+        } else if !self.rule.has(Condition::Look) || !(0..self.robots.len()).any(is_there) {
+            Sight::Open
+        } else if (0..self.robots.len()).any(|other| is_there(other) && self.dead != Some(other)) {
             Sight::Robot
         } else {
-            Sight::Open
+            Sight::Silent
         };
         // It looks before it drives.
         let goes = if sight == Sight::Open { pose } else { turned };
@@ -379,6 +384,7 @@ impl Explorers {
             Status::Unexplored => false,
             Status::Explored => self.entered.status(cell) != Status::Explored,
             Status::Obstacle => self.layout.is_free(cell),
+            Status::Body => self.dead.is_none_or(|dead| self.cells[dead] != cell),
         };
     }
 
@@ -419,6 +425,18 @@ mod tests {
 
     /// Lets a team explore, and compares each decision with that of the rule of one robot. How many there were.
     fn compared(rule: Rule, layout: &Layout, robots: usize, options: Options, seed: u64) -> usize {
+        compared_with_death(rule, layout, robots, options, seed, u64::MAX)
+    }
+
+    /// As [`compared`], where the first robot dies after so many team moves.
+    fn compared_with_death(
+        rule: Rule,
+        layout: &Layout,
+        robots: usize,
+        options: Options,
+        seed: u64,
+        before: u64,
+    ) -> usize {
         let free = layout.cells().filter(|&cell| layout.is_free(cell)).collect::<Vec<_>>();
         let starts = kit::starts(layout, free[seed as usize % free.len()], robots);
         let mut team = Explorers::new(rule, layout, &starts, options, seed);
@@ -428,8 +446,14 @@ mod tests {
             of_team
         };
         // Some rules go on for ever.
-        let moves = (0..2_000).take_while(|_| team.advance_by(compare).is_ok()).count();
-        moves * starts.len()
+        let mut moves = 0;
+        while moves < 2_000 && team.advance_by(compare).is_ok() {
+            moves += 1;
+            if moves == before {
+                team.dies(0);
+            }
+        }
+        moves as usize * starts.len()
     }
 
     /// Halls with a door between any two that follow each other, now at one end and now at the other.
@@ -479,6 +503,8 @@ mod tests {
                 let rule = Rule::REPAIRED.without(condition);
                 decisions += compared(rule, &layout, 1 + seed as usize % 5, Options::USUAL, seed);
             }
+            let (rule, robots, before) = (Rule::REPAIRED, 2 + seed as usize % 4, 1 + seed % 9);
+            decisions += compared_with_death(rule, &layout, robots, Options::USUAL, seed, before);
         }
         assert!(decisions > 40_000, "{decisions} decisions");
     }

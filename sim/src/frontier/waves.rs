@@ -120,7 +120,7 @@ impl Wave {
             for (step, side) in steps {
                 let beside = (place as usize).wrapping_add_signed(step);
                 let status = statuses[beside];
-                if status == Status::Obstacle || self.has_reached(beside) {
+                if matches!(status, Status::Obstacle | Status::Body) || self.has_reached(beside) {
                     continue;
                 }
                 let first = first.unwrap_or(side);

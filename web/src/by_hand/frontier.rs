@@ -39,7 +39,7 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
     let rule = chosen(&RULES, settings)?;
     let setting = setting::<ROBOTS>(rule, (layout.width(), layout.height())).ok_or_else(too_large)?;
     let mut given = TinyMap::new(setting.area).ok_or_else(too_large)?;
-    layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));
+    layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.learn(cell, Status::Obstacle));
     // The number of messages lost by hand is bounded, so that the options stay few.
     let max_losses = if is_lossy { 3 } else { 0 };
     let setting = Setting { given: Some(given), max_losses, ..setting };
@@ -80,7 +80,7 @@ impl<const ROBOTS: usize> SceneWorld for Setting<ROBOTS> {
                 let value = match body.map.status(cell) {
                     Status::Unexplored => continue,
                     Status::Explored => 1,
-                    Status::Obstacle => 2,
+                    Status::Obstacle | Status::Body => 2,
                 };
                 put.push((0, Some(robot), Place::Cell(cell), value));
             }

@@ -2,8 +2,8 @@
 //! multiple robots will introduce redundancy”).
 //!
 //! The others do not know that it is dead: for them it keeps the cell that it has claimed last. Its body stays in its
-//! cell. Robots of a rule with *Look* do not get past it; the sensors of the others see no robot, so that it is in
-//! nobody's way.
+//! cell. Robots of a rule with *Look* do not get past it, and go round it if their rule has *Bypass*; the sensors of
+//! the others see no robot, so that it is in nobody's way.
 
 use std::collections::BTreeSet;
 
@@ -63,24 +63,28 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_stands_before_a_body_for_ever_although_another_way_is_as_short() {
+    fn a_robot_goes_round_a_body_or_stands_before_it_for_ever() {
         let square = Layout::open(2, 2).expect("a layout");
         let starts = [Cell::new(0, 0), Cell::new(1, 1)];
-        let all = (0..40).filter_map(|seed| left(Rule::REPAIRED, &square, &starts, 1, seed));
+        let of = |rule: Rule| -> BTreeSet<[u32; 2]> {
+            (0..40).filter_map(|seed| left(rule, &square, &starts, 1, seed)).collect()
+        };
+        assert_eq!(of(Rule::REPAIRED), [[0, 0]].into());
         // Which of the two ways comes first for the robot that is left tells whether the body is in its way.
-        assert_eq!(all.collect::<BTreeSet<_>>(), [[0, 0], [1, 1]].into());
+        assert_eq!(of(Rule::REPAIRED.without(Condition::Bypass)), [[0, 0], [1, 1]].into());
     }
 
     #[test]
-    fn the_body_stops_the_others_and_without_lapse_the_claim_does() {
+    fn without_bypass_the_body_stops_the_others_and_without_lapse_the_claim_does() {
         let settings = super::super::Settings::default();
         let rules = [
             Rule::REPAIRED,
-            Rule::REPAIRED.without(Condition::Look),
+            Rule::REPAIRED.without(Condition::Bypass),
+            Rule::REPAIRED.without(Condition::Bypass).without(Condition::Look),
             Rule::REPAIRED.without(Condition::Lapse),
         ];
         let cleared = |robots: usize| {
-            let mut cleared = [0; 3];
+            let mut cleared = [0; 4];
             for seed in 0..200 {
                 let (layout, starts) = drawn(&settings, seed).expect("a layout");
                 let starts = &starts[..robots];
@@ -93,6 +97,6 @@ mod tests {
             }
             cleared
         };
-        assert_eq!([2, 8].map(cleared), [[160, 200, 95], [197, 200, 130]]);
+        assert_eq!([2, 8].map(cleared), [[200, 160, 200, 102], [200, 197, 200, 131]]);
     }
 }

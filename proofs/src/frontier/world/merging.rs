@@ -18,16 +18,16 @@ pub enum Part<const ROBOTS: usize> {
     /// to its frontier cell.
     Robot(Robot<TinyMap>, Cell, [Option<Other>; ROBOTS], bool),
     /// The mishaps so far, and the slot.
-    Clock([u8; 6]),
+    Clock([u8; 7]),
 }
 
 /// All of a world that is no robot's and no map.
-fn clock<const ROBOTS: usize>(world: &World<ROBOTS>) -> [u8; 6] {
-    [world.lost, world.wrong, world.small, world.slot, world.old, world.has_tried.into()]
+fn clock<const ROBOTS: usize>(world: &World<ROBOTS>) -> [u8; 7] {
+    [world.lost, world.wrong, world.small, world.dead, world.slot, world.old, world.has_tried.into()]
 }
 
 /// The situations that occur.
-const SITUATIONS: [&str; 8] = [
+const SITUATIONS: [&str; 9] = [
     "a decision",
     "a robot",
     "a slot",
@@ -36,6 +36,7 @@ const SITUATIONS: [&str; 8] = [
     "an open cell",
     "a small obstacle",
     "a way back",
+    "a body",
 ];
 
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
@@ -66,7 +67,8 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
 
     fn broken_at_end(&self, state: &World<ROBOTS>, _: &[u8]) -> Vec<Demand> {
         let covers = !self.is_wanted(Demand::Covers) || !self.is_owed(state);
-        let all_know = || state.robots.iter().all(|robot| !has_more(&robot.map, robot.at()));
+        let knows_all = |robot: &Robot<TinyMap>| !has_more(&robot.map, robot.at());
+        let all_know = || state.living().all(|robot| knows_all(&state.robots[robot]));
         let knows = !self.is_wanted(Demand::Knows) || all_know();
         [(covers, Demand::Covers), (knows, Demand::Knows)]
             .into_iter()
@@ -81,6 +83,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
         match turn.plan[*turn.event].event {
             Event::Decides(..) => 1,
+            Event::Dies(_) => 0,
             Event::Looks(_, _, Sight::Robot, ..) => 1 << 1,
             Event::Ticks => 1 << 2,
             Event::Arrives(..) => 1 << 3,
@@ -88,6 +91,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
             Event::Looks(_, _, Sight::Open, ..) => 1 << 5,
             Event::Looks(_, _, Sight::Small, ..) => 1 << 6,
             Event::Returns(..) => 1 << 7,
+            Event::Looks(_, _, Sight::Silent, ..) => 1 << 8,
         }
     }
 }
@@ -133,8 +137,8 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
                 (state.robots[robot], state.cells[robot], state.told[robot]) = (*bare, *cell, *told);
                 (state.robots[robot].map, state.heading[robot]) = (map, *is_heading);
             }
-            Part::Clock([lost, wrong, small, slot, old, has_tried]) => {
-                (state.lost, state.wrong, state.small) = (*lost, *wrong, *small);
+            Part::Clock([lost, wrong, small, dead, slot, old, has_tried]) => {
+                (state.lost, state.wrong, state.small, state.dead) = (*lost, *wrong, *small, *dead);
                 (state.slot, state.old, state.has_tried) = (*slot, *old, *has_tried == 1);
             }
         }
@@ -147,6 +151,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
             | Event::Returns(robot, _)
             | Event::Arrives(robot, ..) => 1 << robot,
             Event::Ticks => 1 << ROBOTS,
+            Event::Dies(_) => 0,
         }
     }
 
@@ -157,7 +162,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
     /// Robots under way and those that may decide, and the clock.
     fn awake(&self, state: &World<ROBOTS>) -> Bits {
         let moving = Bits::from(state.moving());
-        let deciding = (0..ROBOTS).filter(|&robot| self.may_decide(state, robot));
+        let deciding = state.living().filter(|&robot| self.may_decide(state, robot));
         let robots = deciding.fold(moving, |set, robot| set | 1 << robot);
         robots | Bits::from(self.ticks(state)) << ROBOTS
     }
@@ -169,7 +174,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// A robot without its repository.
-    fn bare(&self, world: &World<ROBOTS>, robot: usize) -> Robot<TinyMap> {
+    pub(super) fn bare(&self, world: &World<ROBOTS>, robot: usize) -> Robot<TinyMap> {
         let mut bare = world.robots[robot];
         bare.map = TinyMap::new(self.area).unwrap_or(world.truth);
         bare

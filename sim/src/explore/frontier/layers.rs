@@ -123,7 +123,7 @@ pub(super) fn show(robots: &Explorers, scene: &mut Scene) {
             let value = match status {
                 Status::Unexplored => 0,
                 Status::Explored => EXPLORED,
-                Status::Obstacle => OBSTACLE,
+                Status::Obstacle | Status::Body => OBSTACLE,
             };
             scene.put_for(REPOSITORIES, robot, Place::Cell(cell), value);
         }

@@ -4,7 +4,7 @@
 //! then.
 
 use tautline_io::diagnostic::Diagnostic;
-use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
+use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, Status, TinyMap};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::world::World as _;
 use tautline_proofs::frontier::areas;
@@ -30,7 +30,7 @@ fn script<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Script<S
     let (Some(setting), Some(mut given), Ok(cells)) = (setting, blank, cells) else {
         return Err(too_large());
     };
-    layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));
+    layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.learn(cell, Status::Obstacle));
     let Some((&[max_losses, max_wrong], choices)) = setup.choices.split_first_chunk() else {
         return Err(of_choices("the choices do not say how much may go wrong"));
     };
@@ -81,7 +81,7 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         match sight {
             Sight::Open => moves.goes(robot, side),
             Sight::Obstacle => moves.bumps(robot, side),
-            Sight::Robot | Sight::Small => {}
+            Sight::Robot | Sight::Silent | Sight::Small => {}
         }
         self.cells = self.script.state.cells().to_vec();
         Ok(moves.frame(&self.cells))
